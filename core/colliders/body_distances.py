@@ -33,7 +33,7 @@ PAIRS_PER_BLOCK = 1 << 20
 INSIDE_RTOL = 1e-9  # relative to the size
 SLIVER_RTOL = 1e-9  # relative to the size: width of faces that count as none
 TINY = float(np.finfo(np.float64).tiny)
-# Reach of the first searches for the body around a place, relative to the size.
+# Reach of the first two searches for the body around a place, relative to the size.
 ON_BODY_RTOL = 1e-10
 NEAR_BODY = 0.02
 
@@ -42,7 +42,7 @@ def hull_of(surface: Surface) -> ConvexHull:
     """Return the convex hull of a closed surface: its own triangles if it has few and is convex."""
     points = np.asarray(surface.points, np.float64)
     triangles = surface.all_triangles()[0].astype(np.intp)
-    # Each corner is used, and only once, as on a sphere.
+    # Euler's formula: a sphere of triangles that uses each corner has so many of them.
     if len(triangles) == 2 * len(points) - 4 and len(triangles) <= MOST_CONVEX_FACES:
         start = triangles.ravel()
         end = triangles[:, NEXT_AXIS].ravel()
@@ -69,22 +69,24 @@ def hull_of(surface: Surface) -> ConvexHull:
 def distances(
     surface: Surface, shapes: Sequence[Shape], hull: ConvexHull | None = None, enough: float = inf
 ) -> tuple[float, float, float]:
-    """Return the largest distance of the colliders from the body, outward, and of the body from
-    them, inward, in m.
+    """Return the largest distance of the colliders from the body, outward; that of the body from
+    them, inward; and a bound of how much both may be too small, m.
 
-    surface: closed and outward. hull: its hull, if that is known. enough: outward distances above
-    it may be too small. The third number bounds by how much others may be too small. The distance
-    from a convex body is largest at a corner, so that only others are sampled.
+    surface: closed and outward. hull: its hull, if that is known. enough: an outward distance above
+    it may be much too small.
+
+    The distance from a convex set is a convex function, and so largest at a corner. Only distances
+    from a set that is not convex are sampled: from several colliders, or a body with hollows.
     """
     hull = hull or hull_of(surface)
     triangles = surface.all_triangles()[0].astype(np.intp)
     points = np.asarray(surface.points, np.float64)
     size = float(np.ptp(hull.points, axis=0).max())
     solids, sags = zip(*(_polyhedron(shape) for shape in shapes))
-    if len(solids) == 1:
-        samples, step = hull.points, 0.0
-    else:
-        samples, step = _samples(points, triangles, size / STEPS)
+    # The corners of its hull are corners of the body.
+    samples, missing = hull.points, 0.0
+    if len(solids) > 1:
+        samples, missing = _samples(points, triangles, size / STEPS)
     nearest = np.full(len(samples), np.inf)
     for shape, solid in zip(shapes, solids):
         # Samples in an earlier shape need no other one.
@@ -93,47 +95,53 @@ def distances(
         nearest[rest] = np.minimum(nearest[rest], near)
     inward = float(nearest.max(initial=0.0))
     corners = np.concatenate([solid.points for solid in solids])
-    # The largest height over a face is a lower bound of the distance.
-    outward = float(_heights(corners, hull).max())
-    if outward <= enough:
-        no_limits = np.full(len(corners), np.inf)
-        outward = float(_distances_from_hull(corners, hull, no_limits, size).max())
+    # The body is in its hull, and the hull below the planes of its faces: the largest height over a
+    # plane, and the distance from the hull, are lower bounds of the distance from the body.
+    over_planes = float(_heights(corners, hull).max())
+    if over_planes > enough:
+        return max(over_planes, 0.0), inward, missing + max(sags)
+    no_limits = np.full(len(corners), np.inf)
+    from_hull = float(_distances_from_hull(corners, hull, no_limits, size).max())
     volume = hull_volume(hull)
     is_convex = volume - volume_and_center(surface)[0] <= CONVEX_RTOL * volume
-    if is_convex or outward > enough:
-        return max(outward, 0.0), inward, step + max(sags)
+    if is_convex or from_hull > enough:
+        return max(from_hull, 0.0), inward, missing + max(sags)
     tree = tree_of_all(surface.points, surface.all_triangles()[0])
-    sampled, own_step = farthest_sample(tree, solids, size, enough)
-    return max(outward, sampled), inward, max(step, own_step) + max(sags)
+    from_body, outward_missing = farthest_sample(tree, solids, size, enough)
+    return max(from_hull, from_body), inward, max(missing, outward_missing) + max(sags)
 
 
 def farthest_sample(
     tree: Bvh, solids: Sequence[ConvexHull], size: float, enough: float
 ) -> tuple[float, float]:
     """Return the largest distance of the surface of solids outside a body from it, inf if it is
-    above `enough`, and the bound of `_samples`. Coarse samples come first if they may suffice.
+    above `enough`, and the bound of `_samples`.
+
+    tree: of the body's triangles. size: the body's extent. Coarse samples come first: one that is
+    too far decides.
     """
-    farthest = step = 0.0
+    farthest = missing = 0.0
     for fineness in (COARSE_STEPS, STEPS) if enough < inf else (STEPS,):
-        places, step = _outer_samples(solids, size, fineness)
+        places, missing = _outer_samples(solids, size, fineness)
         farthest = max(farthest, _farthest_outside(tree, places - tree.origin, size, enough))
         if farthest > enough:
             break
-    return farthest, step
+    return farthest, missing
 
 
 def _farthest_outside(tree: Bvh, places: Array, size: float, enough: float) -> float:
     """Return the largest distance of places outside a body from it; inf if it is above `enough`.
 
-    Most places are on the body or near to it, and short searches leave few for the long one.
+    places: (n, 3) from the tree's origin. Most of them are on the body or near to it, and short
+    searches leave few for the long one.
     """
     farthest = 0.0
     component = np.zeros(len(places), np.intp)
-    for step, within in enumerate((ON_BODY_RTOL * size, min(NEAR_BODY * size, enough), enough)):
+    for search, within in enumerate((ON_BODY_RTOL * size, min(NEAR_BODY * size, enough), enough)):
         distance = tree.distances(places, component[: len(places)], within)
         farthest = float(distance[distance < inf].max(initial=farthest))
         places = places[distance == inf]
-        if step == 0:
+        if search == 0:  # places on the body have no certain winding number
             winding, sure = tree.winding_numbers(
                 places, component[: len(places)], INSIDE_RTOL * size
             )
@@ -142,17 +150,19 @@ def _farthest_outside(tree: Bvh, places: Array, size: float, enough: float) -> f
 
 
 def _outer_samples(solids: Sequence[ConvexHull], size: float, fineness: int) -> tuple[Array, float]:
-    """Return places on the surface of the union of solids, and the bound of `_samples`."""
-    kept, steps = [], []
+    """Return places on the surface of the union of solids, and the bound of `_samples`. fineness:
+    steps along the extent of the body or of a larger solid.
+    """
+    kept, bounds = [], []
     for solid in solids:
-        reach = max(size, float(np.ptp(solid.points, axis=0).max()))
-        places, step = _samples(solid.points, solid.triangles, reach / fineness)
-        steps.append(step)
+        extent = max(size, float(np.ptp(solid.points, axis=0).max()))
+        places, missing = _samples(solid.points, solid.triangles, extent / fineness)
+        bounds.append(missing)
         for other in solids:
             if other is not solid:
                 places = places[_heights(places, other).max(axis=1) >= -INSIDE_RTOL * size]
         kept.append(places)
-    return np.concatenate(kept), max(steps)
+    return np.concatenate(kept), max(bounds)
 
 
 def hull_volume(hull: ConvexHull) -> float:
@@ -174,15 +184,17 @@ def _unit(kind: str) -> ConvexHull:
 
 
 def _polyhedron(shape: Shape) -> tuple[ConvexHull, float]:
-    """Return a shape as a convex polyhedron in the link's frame, and the depth by which that lies
-    in a round shape.
+    """Return a shape as a convex polyhedron in the link's frame, and the largest depth of its faces
+    in the shape, which is not 0 if the shape is round.
     """
     if shape.surface is not None:
         points = shape.pose.apply(shape.surface.points * shape.size)
         return hull_of(Surface(points, shape.surface.all_triangles()[0])), 0.0
     hull = _unit("sphere" if shape.kind == "ellipsoid" else shape.kind)
     size = shape.size
-    if shape.kind == "capsule":  # the ends move apart, and no face changes
+    if shape.kind == "capsule":
+        # The first ROUND_POINTS points of the unit capsule are those of its upper ball. Both balls
+        # are scaled and moved apart, and no face of the hull changes.
         ends = np.where((hull.indices < ROUND_POINTS)[:, None], END, -END)
         points = size[0] * (hull.points - ends) + size[1] * ends
     else:
@@ -192,8 +204,8 @@ def _polyhedron(shape: Shape) -> tuple[ConvexHull, float]:
 
 
 def _face_normals(hull: ConvexHull) -> Array:
-    """Return the (m, 3) unit normals of a hull's faces; those of faces without area are zero, and
-    of slivers, whose normals are rounding.
+    """Return the (m, 3) unit normals of a hull's faces; zero for faces without area and for
+    slivers, whose normals are rounding.
     """
     normal = normals(hull.points, hull.triangles)
     double = np.linalg.norm(normal, axis=1)
@@ -204,8 +216,8 @@ def _face_normals(hull: ConvexHull) -> Array:
 
 
 def _heights(points: Array, hull: ConvexHull) -> Array:
-    """Return (n, m) signed distances of points from the planes of a hull's faces; -inf from faces
-    without area.
+    """Return (n, m) signed distances of points from the planes of a hull's faces, positive outside;
+    -inf for faces without a normal.
     """
     normal = _face_normals(hull)
     at = np.einsum("ij,ij->i", normal, hull.points[hull.triangles[:, 0]])
@@ -215,11 +227,13 @@ def _heights(points: Array, hull: ConvexHull) -> Array:
 def _distances_from_shape(
     points: NDArray, shape: Shape, solid: ConvexHull, nearest: NDArray, size: float
 ) -> Array:
-    """Return the distances of points from a shape as `_distances_from_hull` does; exact for round
-    shapes, too.
+    """Return the distances of points from a shape; from meshes and ellipsoids, those of
+    `_distances_from_hull` from its polyhedron.
     """
     if shape.kind in ("mesh", "ellipsoid"):
         return _distances_from_hull(points, solid, nearest, size)
+    # By symmetry, in the first octant of the shape's frame: there a shape is a box from the origin
+    # to `core`, in (r, z) for a cylinder, and all within `radius` of the box.
     place = np.abs((points - shape.pose.position) @ shape.pose.rotation)
     if shape.kind == "cylinder":
         place = np.stack([np.hypot(place[:, 0], place[:, 1]), place[:, 2]], axis=1)
@@ -234,8 +248,8 @@ def _distances_from_shape(
 
 
 def _distances_from_hull(points: NDArray, hull: ConvexHull, nearest: NDArray, size: float) -> Array:
-    """Return the distances of points from a hull, 0 inside; those above `nearest` may be too
-    small.
+    """Return the distances of points from a hull, 0 inside; those above the points' (n,) `nearest`
+    may be too small. size: the body's extent.
     """
     distance = np.zeros(len(points))
     normal = _face_normals(hull)
@@ -259,10 +273,11 @@ def _distances_from_hull(points: NDArray, hull: ConvexHull, nearest: NDArray, si
 
 
 def _samples(points: NDArray, triangles: NDArray, step: float) -> tuple[Array, float]:
-    """Return places on triangles, a step apart or more, and a bound of any other place's distance
-    from the nearest.
+    """Return (k, 3) places on triangles, about a step apart, more if there were too many, and a
+    bound of the distance of any other place from the nearest of them.
 
-    A place in a triangle is at most 1/√3 of its longest side from the nearest corner.
+    A triangle is divided into equal ones like it. A place in a triangle is at most 1/√3 of its
+    longest side from the nearest corner.
     """
     corners = points[triangles]
     longest = np.linalg.norm(corners - corners[:, [1, 2, 0]], axis=2).max(axis=1)

@@ -22,7 +22,15 @@ from ..mesh import (
     triangle_areas,
     triangle_distances,
 )
-from ..numerics import Array, Index, Mask, NDArray, connected_components, spread_directions
+from ..numerics import (
+    Array,
+    Index,
+    Mask,
+    NDArray,
+    connected_components,
+    run_starts,
+    spread_directions,
+)
 from ..verdict import MeasureError
 from .plane_cuts import ON_PLANE_RTOL, Piece, connected_parts, cut, piece_from_surface
 
@@ -33,13 +41,15 @@ MAX_PLANES = 24  # through concave edges
 # directions that choose planes, and planes that are compared exactly
 DIRECTIONS = 120
 LIKELY_PLANES = 6
-LIKELY_CUTS = 2  # each is followed by another one exactly
-SAMPLES_PER_BLOCK = 32  # after the first few, which most often decide
+LIKELY_CUTS = 2  # cuts through the middle whose halves are cut again, with exact hulls
+SAMPLES_PER_BLOCK = 32  # after the first 4, which most often decide
+# Moves of the best plane, relative to the size: it is moved if that reduces the hulls more.
+SHIFTS = np.array([-0.06, -0.03, -0.015, 0.015, 0.03, 0.06])
 SHARES = np.array([1, 2, 3]) / 4.0  # shares of the extent, where planes divide a piece evenly
 SAME_AXIS = 1.0 - 1e-9  # cosine: nearer axes are one
 LEAST_GAIN = 1e-3  # relative to the body's volume: a smaller reduction is none
 LEAST_EXCESS = 0.01  # of the hull over the volume of a piece that is worth two cuts
-HOPE = 0.02  # The gain of a cut that gains nothing yet, relative to the excess.
+HOPE = 0.02  # Relative to the excess: the assumed gain of a cut that gains nothing yet.
 MERGE_CORNERS = 96  # corners of hulls that are compared before they are merged
 SPARE = 2  # pieces made for each wanted piece, before they are merged
 
@@ -86,10 +96,10 @@ def _solid_hull(points: NDArray, tolerance: float, corners: int) -> ConvexHull:
 
 def _best_plane(piece: Piece, outward: float, volume: float) -> tuple[float, Array]:
     """Return the largest reduction of hulls by a plane, on a coarse copy of the piece, and the (4,)
-    plane.
+    plane; 0 if no cut is needed.
 
-    No single plane reduces the hulls of a ring or a cup: then planes through the middle are
-    followed by another one.
+    outward: as for `cut_into_pieces`. volume: of the whole body. No single plane reduces the hulls
+    of a ring or a cup: then planes through the middle are followed by another one.
     """
     excess = float(_volumes([piece.points])[0]) - piece.volume()
     coarse = _coarse(piece)
@@ -99,16 +109,16 @@ def _best_plane(piece: Piece, outward: float, volume: float) -> tuple[float, Arr
     gain, best = _best_of(coarse, piece)
     if gain > LEAST_GAIN * volume or excess < LEAST_EXCESS * piece.volume():
         return gain, best
-    middle = _even_planes(coarse.points, np.array([0.5]))
-    halves = [[*cut(coarse, plane)] for plane in middle]
+    middle_planes = _even_planes(coarse.points, np.array([0.5]))
+    halves = [[*cut(coarse, plane)] for plane in middle_planes]
     rough = [
         sum(_gains(part, _planes(part), _rough_volumes).max() for part in parts) for parts in halves
     ]
     likely = np.argsort(rough, kind="stable")[-LIKELY_CUTS:]
-    gains = [sum(_best_of(part, part)[0] for part in halves[i]) for i in likely]
-    # The hulls of a spiral's halves overlap: nothing gains until it is cut often, and most is
-    # merged again.
-    return max(*gains, HOPE * excess), middle[likely[int(np.argmax(gains))]]
+    gains = [sum(gain for gain, _ in (_best_of(part, part) for part in halves[i])) for i in likely]
+    # The hulls of a spiral's halves overlap: no cut gains until it is cut often. Then most pieces
+    # are merged again.
+    return max(*gains, HOPE * excess), middle_planes[likely[int(np.argmax(gains))]]
 
 
 def _planes(piece: Piece) -> Array:
@@ -118,7 +128,10 @@ def _planes(piece: Piece) -> Array:
 
 
 def _best_of(coarse: Piece, piece: Piece) -> tuple[float, Array]:
-    """Return the largest reduction of the hulls by one plane, and the plane."""
+    """Return the largest reduction of the hulls of a coarse piece by one plane, and the (4,) plane.
+
+    The candidates are those of the piece itself; if it is the coarse one, the best is not refined.
+    """
     planes = _planes(piece)
     planes = planes[
         np.argsort(-_gains(coarse, planes, _rough_volumes), kind="stable")[:LIKELY_PLANES]
@@ -128,15 +141,14 @@ def _best_of(coarse: Piece, piece: Piece) -> tuple[float, Array]:
     if coarse is piece:
         return float(gains.max()), best
     size = float(np.ptp(piece.points, axis=0).max())
-    shifts = size * np.array([-0.06, -0.03, -0.015, 0.015, 0.03, 0.06])
-    near = np.concatenate([best[None], best + shifts[:, None] * (0.0, 0.0, 0.0, 1.0)])
+    near = np.concatenate([best[None], best + size * SHIFTS[:, None] * (0.0, 0.0, 0.0, 1.0)])
     gains = _gains(coarse, near)
     return float(gains.max()), near[gains.argmax()]
 
 
 def _is_near_hull(piece: Piece, limit: float) -> bool:
-    """Return whether places on the hull's faces and edges, of the largest faces first, are all this
-    near to a piece.
+    """Return whether samples of the hull's surface, the middles of its faces and of one edge each,
+    are all within a limit of the piece; the largest faces first.
     """
     hull = _solid_hull(piece.points, SEARCH_RTOL, 64)
     largest = np.argsort(-triangle_areas(hull.points, hull.triangles), kind="stable")
@@ -145,10 +157,8 @@ def _is_near_hull(piece: Piece, limit: float) -> bool:
     samples = np.stack(
         [corners.mean(axis=1), (corners[:, 0] + corners[:, 1]) / 2.0], axis=1
     ).reshape(-1, 3)
-    for block in np.array_split(samples, np.arange(4, len(samples), SAMPLES_PER_BLOCK)):
-        if distances_from_triangles(block, fans).max() > limit:
-            return False
-    return True
+    blocks = np.array_split(samples, np.arange(4, len(samples), SAMPLES_PER_BLOCK))
+    return all(distances_from_triangles(block, fans).max() <= limit for block in blocks)
 
 
 def distances_from_triangles(points: Array, corners: Array) -> Array:
@@ -158,8 +168,8 @@ def distances_from_triangles(points: Array, corners: Array) -> Array:
 
 
 def _coarse(piece: Piece) -> Piece:
-    """Return a copy of a piece with at most some points: one for each cell of a grid, the farthest
-    from the middle.
+    """Return a copy of a piece with at most COARSE_POINTS points: one for each cell of a grid, the
+    farthest from the middle. Edges whose ends become one are left out.
     """
     points = piece.points
     if len(points) <= COARSE_POINTS:
@@ -168,8 +178,8 @@ def _coarse(piece: Piece) -> Piece:
     extent = np.maximum(np.ptp(points, axis=0), np.finfo(float).tiny)
     far = np.argsort(-((points - points.mean(axis=0)) ** 2).sum(axis=1), kind="stable")
     cells = 16
-    while True:  # It ends: two cells a side hold 8 points at most.
-        # a thin body keeps both of its sides
+    while True:  # It ends: 2 cells along each axis hold 8 points at most.
+        # At least 2 cells, so that a thin body keeps both of its sides.
         number = np.maximum(np.ceil(cells * extent / extent.max()), 2.0)
         place = np.minimum((points - low) / extent * number, number - 1.0).astype(np.intp)
         cell = place @ (cells * cells, cells, 1)
@@ -191,31 +201,36 @@ def _concave_planes(piece: Piece, size: float) -> Array:
     # Both uses of an edge that two faces share are neighbors in this order, the forward one first.
     key = np.minimum(piece.start, piece.end) * count + np.maximum(piece.start, piece.end)
     order = np.lexsort((piece.start > piece.end, key))
+    # Pairs of neighbors with one key that are not part of a longer run: edges of just two faces.
     same = key[order][1:] == key[order][:-1]
-    alone = ~np.append(False, same[:-1]) & ~np.append(same[1:], False)
-    first = order[:-1][same & alone]
-    second = order[1:][same & alone]
+    is_pair = same & ~np.append(False, same[:-1]) & ~np.append(same[1:], False)
+    first = order[:-1][is_pair]
+    second = order[1:][is_pair]
     a = piece.points[piece.start[first]]
     b = piece.points[piece.end[first]]
-    one = piece.normals[piece.face[first]]
-    other = piece.normals[piece.face[second]]
-    turn = np.einsum("ij,ij->i", np.cross(one, other), b - a)
+    first_normal = piece.normals[piece.face[first]]
+    second_normal = piece.normals[piece.face[second]]
+    # The edge's length times the sine of the angle between the faces, negative if it is concave.
+    turn = np.einsum("ij,ij->i", np.cross(first_normal, second_normal), b - a)
     concave = turn < -1e-6 * size
-    a, b, one, other = (values[concave] for values in (a, b, one, other))
+    a, b, first_normal, second_normal = (
+        values[concave] for values in (a, b, first_normal, second_normal)
+    )
     weight = -turn[concave]
     if not len(a):
         return np.zeros((0, 4))
-    between = np.cross(one + other, b - a)
-    normal = np.concatenate([one, other, between])
+    between = np.cross(first_normal + second_normal, b - a)
+    normal = np.concatenate([first_normal, second_normal, between])
     length = np.linalg.norm(normal, axis=1)
-    real = length > 1e-9 * size
-    normal = normal[real] / length[real, None]
-    at = np.tile(a, (3, 1))[real]
-    weight = np.tile(weight, 3)[real]
+    has_direction = length > 1e-9 * size  # between opposite faces there is none
+    normal = normal[has_direction] / length[has_direction, None]
+    at = np.tile(a, (3, 1))[has_direction]
+    weight = np.tile(weight, 3)[has_direction]
     largest = normal[np.arange(len(normal)), np.abs(normal).argmax(axis=1)]
     normal *= np.where(largest < 0.0, -1.0, 1.0)[:, None]
     planes = np.column_stack([normal, np.einsum("ij,ij->i", normal, at)])
-    # Planes with the same rounded normal and place count as one, as heavy as all of them.
+    # Planes with the same normal, rounded to sixths, and the same distance from the middle, rounded
+    # to 24ths of the size, count as one, as heavy as all of them.
     middle = np.append(piece.points.mean(axis=0), -1.0)
     steps = np.column_stack([np.rint(normal * 6.0), np.rint(planes @ middle / size * 24.0)])
     _, first_plane, group = np.unique(steps, axis=0, return_index=True, return_inverse=True)
@@ -242,8 +257,10 @@ def _gains(
     planes: Array,
     measure: Callable[..., Array] = hull_volumes,
 ) -> Array:
-    """Return by how much each plane reduces the volume of the hulls of connected parts, for each
-    part it adds.
+    """Return (k,) reductions: by how much each of (k, 4) planes reduces the volume of the hulls of
+    connected parts, for each part it adds.
+
+    measure: (n, 3) points, (s,) starts of sets and a tolerance to the (s,) volumes of their hulls.
     """
     points = piece.points
     edges = np.unique(np.sort(np.stack([piece.start, piece.end], axis=1), axis=1), axis=0)
@@ -257,9 +274,9 @@ def _gains(
         [np.bincount(piece.start, column[piece.face], len(points)) for column in piece.normals.T],
         axis=1,
     )
-    # Sets of points: the whole piece, then each connected part on each side of each plane. For all
-    # points of all sets their place and set; for all sets their plane, and whether they are walls
-    # of holes.
+    # Sets of points: the whole piece, then each connected part on each side of each plane. `places`
+    # and `sets` have an entry for each point of each set; `set_planes` and `are_inward` for each
+    # set: its plane, and whether it is the wall of a hole.
     places = [points]
     sets = [np.zeros(len(points), np.intp)]
     set_planes = [np.full(1, -1)]
@@ -285,8 +302,9 @@ def _gains(
         places += [points[vertex], crossings]
         sets.append(set_count + part)
         set_planes.append(part_planes)
-        vertex_part = part[: len(vertex)]
-        are_inward.append(_face_inward(points[vertex], outward[vertex], vertex_part, part_count))
+        are_inward.append(
+            _face_inward(points[vertex], outward[vertex], part[: len(vertex)], part_count)
+        )
         set_count += part_count
     place = np.concatenate(places)
     set_of_place = np.concatenate(sets)
@@ -306,12 +324,13 @@ def _gains(
 
 @lru_cache(maxsize=1)
 def _directions() -> ConvexHull:
+    """Return the hull of directions on the unit sphere."""
     return convex_hull(spread_directions(DIRECTIONS), 1e-9)
 
 
 def _rough_volumes(points: Array, starts: Index, _: float) -> Array:
-    """Return about the volumes of hulls: those of polyhedra of the farthest points in some
-    directions.
+    """Return estimates of the volumes of hulls of sets of points, (s,): those of polyhedra of the
+    farthest points in some directions. The tolerance has no effect.
     """
     ball = _directions()
     sizes = np.diff(np.append(starts, len(points)))
@@ -320,14 +339,15 @@ def _rough_volumes(points: Array, starts: Index, _: float) -> Array:
     row, direction = np.nonzero(reach >= np.maximum.reduceat(reach, starts).repeat(sizes, axis=0))
     farthest = np.empty((len(starts), len(ball.points), 3))
     farthest[np.arange(len(starts)).repeat(sizes)[row], direction] = points[row]
-    farthest -= farthest[:, :1].copy()
+    farthest -= farthest[:, :1].copy()  # cones from the first point, to lose no digits far away
     a, b, c = (farthest[:, ball.triangles[:, k]] for k in range(3))
     return np.einsum("ijk,ijk->i", a, np.cross(b, c)) / 6.0
 
 
 def _face_inward(points: NDArray, out: NDArray, label: Index, parts: int) -> Mask:
-    """Return a (parts,) mask of the parts whose faces look at the middle: walls of holes. out: (n,
-    3) normals. label: (n,) parts.
+    """Return a (parts,) mask of the parts whose faces look at their middle: walls of holes.
+
+    points: (n, 3). out: (n, 3) sums of the normals of the faces around each. label: (n,) parts.
     """
     count = np.maximum(np.bincount(label, minlength=parts), 1)
     # Σ (point - middle) · normal
@@ -338,15 +358,17 @@ def _face_inward(points: NDArray, out: NDArray, label: Index, parts: int) -> Mas
 
 
 def _boxes_around(points: NDArray, starts: Index, plane: Index, inward: Mask) -> Index:
-    """Return, for each set of points, itself, or of walls of a hole the set of the same plane
-    around its box.
+    """Return an index for each set of points: of a hole's walls, the largest set of the same plane
+    with a box around theirs; else its own.
+
+    points: (n, 3), set after set. starts, plane, inward: (s,) for the sets.
     """
     low = np.minimum.reduceat(points, starts)
     high = np.maximum.reduceat(points, starts)
     size = (high - low).sum(axis=1)
     around = np.arange(len(starts))
     order = np.argsort(plane, kind="stable")
-    for group in np.split(order, np.flatnonzero(np.diff(plane[order])) + 1):
+    for group in np.split(order, run_starts(plane[order])[1:]):
         if inward[group].any():
             inside = (low[group] <= low[group, None]).all(axis=2) & (
                 high[group] >= high[group, None]
@@ -362,7 +384,8 @@ def _merge(sets: list[Array], most: int, volume: float) -> list[Array]:
     """Merge sets of points, each time the pair whose common hull adds least, until at most so many
     are left.
 
-    Merges that add nothing go on. The hulls that are compared have few corners.
+    Pairs whose common hull adds less than LEAST_GAIN of the body's volume are merged also below
+    that number. The hulls that are compared have few corners.
     """
     hulls = [_solid_hull(points, SEARCH_RTOL, MERGE_CORNERS).points for points in sets]
     volumes = _volumes(hulls)
@@ -383,9 +406,11 @@ def _merge(sets: list[Array], most: int, volume: float) -> list[Array]:
         sets = [*(sets[k] for k in keep), np.concatenate([sets[i], sets[j]])]
         cost = cost[np.ix_(keep, keep)]
         hulls = [hulls[k] for k in keep]
-        both = _volumes([*(np.concatenate([one, merged]) for one in hulls), merged])
-        column = both[:-1] - volumes[keep] - both[-1]
-        volumes = np.append(volumes[keep], both[-1])
+        *common, volume_of_merged = _volumes(
+            [*(np.concatenate([points, merged]) for points in hulls), merged]
+        )
+        column = np.array(common) - volumes[keep] - volume_of_merged
+        volumes = np.append(volumes[keep], volume_of_merged)
         hulls = [*hulls, merged]
         cost = np.pad(cost, ((0, 1), (0, 1)), constant_values=np.inf)
         cost[:-1, -1] = column
@@ -393,7 +418,7 @@ def _merge(sets: list[Array], most: int, volume: float) -> list[Array]:
 
 
 def _volumes(sets: Sequence[Array]) -> Array:
-    """Return the volumes of the hulls of sets of points."""
+    """Return the (s,) volumes of the hulls of sets of points."""
     if not sets:
         return np.zeros(0)
     starts = np.cumsum([0, *(len(points) for points in sets[:-1])])

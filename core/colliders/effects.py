@@ -41,21 +41,22 @@ SUMS = monomial_count(2)  # mass, first and second moments
 DEGREE = monomials(2).sum(axis=1)
 # Products, whose powers are at most half of their degree, count twice in the norm of a tensor.
 IN_NORM = np.where((DEGREE > 0) & (monomials(2).max(axis=1) * 2 == DEGREE), np.sqrt(2.0), 1.0)
-# Beside sums that are not held. Repetition takes the effect on held ones away.
+# Weight of sums that are held, beside 1 of other sums. Repetition takes away the effect of the
+# other sums on those that are held.
 HELD_WEIGHT = 30.0
-NEARNESS = 1e-5
+NEARNESS = 1e-5  # weight of the nearness to the wish, beside the sums
 REPETITIONS = 40
-# relative to the body's mass and size
+# Relative to the body's mass and size: smaller deviations of the sums are rounding, or reached.
 ROUNDING = 1e-15
 REACHED = 1e-11
 MOVES_REACHED = 1e-8  # relative to the body's volume and size, as precise as single precision
-NEAR = 1e-6  # beyond which the volume is given up
+NEAR = 1e-6  # as MOVES_REACHED: farther from the sums, the volume is given up
 MAX_STEPS, MAX_MULTIPLIER_STEPS = 60, 60
 # radii of the trust region, in the body's radii of gyration
 FIRST_RADIUS = 0.1
 LEAST_RADIUS = 1e-6
 MIN_AREA = 1e-3  # relative to the largest share: corners with less move as if they had so much
-# of the effect of all moves: how far sums that cannot be reached may be from the nearest ones
+# Relative to the effect of all moves: it lets sums that cannot be reached be missed.
 SLACK = 1e-9
 CORRECTING_SHARE = 0.97  # of the work that is completed when corners are moved
 FLAT_RTOL = 3e-7  # a few roundings to single precision
@@ -63,11 +64,12 @@ TINY = float(np.finfo(np.float64).tiny)
 
 
 def effect(body: MassProperties, shapes: Sequence[Shape], volume: float) -> Effect:
-    """Compare the sum of colliders with masses, of uniform density each, with a body of a volume.
+    """Compare the sum of colliders, each with its mass and uniform density, with a body and its
+    volume.
 
     MeasureError if the colliders have no mass.
     """
-    shares, rows = _ten_sums(body, shapes)
+    volumes, rows = _ten_sums(body, shapes)
     sums = rows @ [shape.mass for shape in shapes]
     if not sums[0] > 0.0:
         raise MeasureError(COLLIDERS_FLAT)
@@ -76,7 +78,7 @@ def effect(body: MassProperties, shapes: Sequence[Shape], volume: float) -> Effe
     inertial = Inertial(
         body.mass, body.center, body.inertia, body.principal.moments, body.principal.axes
     )
-    return compare(inertial, float(sums[0]), shift, second, ratio(float(sum(shares)), volume))
+    return compare(inertial, float(sums[0]), shift, second, ratio(float(sum(volumes)), volume))
 
 
 def uniform_masses(density: float, shapes: Sequence[Shape]) -> list[float]:
@@ -113,13 +115,16 @@ def correct_masses(body: MassProperties, shapes: Sequence[Shape]) -> list[float]
     target = np.zeros(SUMS)
     target[0] = 1.0
     target[SECOND_MOMENT_INDEX] = second / body.mass
+    # The radius of gyration, or that of the farthest collider: xx, yy and zz are rows 4, 7 and 9.
     size = sqrt(max(float(rows[[4, 7, 9]].sum(axis=0).max()), float(second.trace()) / body.mass))
     units = IN_NORM / size**DEGREE
+    # The unknowns are shares of the mass over the weights; at uniform density they are the weights.
     rows = rows * weights * units[:, None]
     target = target * units
     roots, off = _nearest(rows, target, SUMS, weights)
     if off > REACHED:
-        # Not all sums can be met: hold the center if that can be met, else the nearest one.
+        # Not all sums can be met. Hold the mass and the center (4 sums) if these can be met, else
+        # the mass and the nearest center.
         center_roots, off = _nearest(rows[:4], target[:4], 4, weights)
         if off > REACHED:
             center_roots, _ = _nearest(rows[:4], target[:4], 1, weights)
@@ -130,21 +135,21 @@ def correct_masses(body: MassProperties, shapes: Sequence[Shape]) -> list[float]
 
 
 def _ten_sums(body: MassProperties, shapes: Sequence[Shape]) -> tuple[Array, Array]:
-    """Return (n,) volumes of colliders, and (10, n) moments by their masses, about the body's
-    center.
+    """Return (n,) volumes of colliders, and (10, n) moments divided by these, about the body's
+    center; zero for flat colliders.
     """
     moments = [moments_of(shape).truncate(2) for shape in shapes]
-    volumes = np.array([float(one.total) for one in moments])
-    raw = np.array([one.about_point(body.center).raw for one in moments]).reshape(-1, SUMS).T
+    volumes = np.array([float(solid.total) for solid in moments])
+    raw = np.array([solid.about_point(body.center).raw for solid in moments]).reshape(-1, SUMS).T
     return volumes, raw / np.where(volumes > 0.0, volumes, 1.0)
 
 
 def _nearest(rows: Array, target: Array, held: int, wish: Array) -> tuple[Array, float]:
-    """Return (n,) x ≥ 0 nearest to a wish, and how far the `held` first rows of rows @ x = target
-    are from holding.
+    """Return (n,) x ≥ 0 nearest to a wish, and the largest deviation of the `held` first rows of
+    rows @ x = target.
 
-    The other rows come as near as they can. The method of multipliers adds to the target what is
-    missing.
+    The other rows come as near as they can. The method of multipliers adds the deviation of the
+    held rows to the target.
     """
     weights = np.where(np.arange(len(rows)) < held, HELD_WEIGHT, 1.0)
     system = np.concatenate([rows * weights[:, None], NEARNESS * np.eye(len(wish))])
@@ -165,7 +170,7 @@ def _nonnegative(system: Array, target: Array, x: NDArray) -> Array:
     """Return (n,) x ≥ 0 with the least |system @ x - target| (Lawson and Hanson 1974), from a start
     ≥ 0.
 
-    The columns must be independent.
+    The columns must be independent. Free entries take their best values; the others are 0.
     """
     size = len(x)
     x = x.copy()
@@ -174,8 +179,8 @@ def _nonnegative(system: Array, target: Array, x: NDArray) -> Array:
     noise = 64.0 * np.finfo(float).eps * largest
     for _ in range(10 * size + 10):
         while True:
-            # The best values of the free ones, or if some are below 0, a step toward them until the
-            # first of these is 0.
+            # The best values of the free entries; if some of them are below 0, a step toward them
+            # that ends where the first entry is 0, and no longer free.
             best = np.zeros(size)
             best[free] = np.linalg.lstsq(system[:, free], target, rcond=None)[0]
             if not (best[free] <= 0.0).any():
@@ -187,7 +192,7 @@ def _nonnegative(system: Array, target: Array, x: NDArray) -> Array:
             free &= ~at_zero
             x[~free] = 0.0
         x = best
-        # The fixed one whose growth lowers the sum of squares most becomes free.
+        # The entry at 0 whose growth lowers the sum of squares most becomes free.
         gain = np.where(free, -np.inf, system.T @ (target - system @ x))
         entering = int(gain.argmax())
         if gain[entering] <= noise:
@@ -241,7 +246,8 @@ class _Hulls:
     their own.
 
     Lengths are in radii of gyration of the body, `size`, from its center. start: (n, 3) corners
-    before they move.
+    before they move; those of hull i begin at starts[i]. fixed: sums of colliders that do not move.
+    is_density_free: whether sums are relative to the colliders' own volume.
     """
 
     is_density_free = False
@@ -266,8 +272,8 @@ class _Hulls:
         return [convex_hull(part) for part in np.split(points, self.starts[1:-1])]
 
     def evaluate(self, points: Array) -> tuple[NDArray, NDArray, NDArray]:
-        """Return the (10,) sums that are missing, (10, n, 3) derivatives of the sums and (n,) areas
-        of corners.
+        """Return the (10,) sums that are missing, (10, n, 3) derivatives of the sums and, for each
+        of the (n,) corners, the areas of its faces.
         """
         sums = np.zeros(SUMS)
         gradient = np.zeros((SUMS, *points.shape))
@@ -281,18 +287,20 @@ class _Hulls:
             areas[places] = sums_by_index(hull.triangles.ravel(), shares, len(hull.points))
         sums = self.fixed + self.density * sums
         gradient = self.density * gradient
-        if self.is_density_free:
+        if self.is_density_free:  # quotients by the volume, the first sum
             sums, gradient = sums / sums[0], gradient / sums[0]
             gradient -= sums[:, None, None] * gradient[0]
         return self.target - sums, gradient, areas
 
 
 def _solve(hulls: _Hulls, limit: float) -> Generator[float, None, tuple[Array, float]]:
-    """Find the (n, 3) corners that have the body's sums with the least motion, or nearly, and what
-    is missing, in steps.
+    """Find the (n, 3) corners that have the body's sums with the least motion, or nearly; return
+    them and the norm of the missing sums. Yields the completed share.
+
+    limit: of each corner's move, in units of `hulls.size`.
     """
     moves = np.zeros_like(hulls.start)
-    (missing, gradient, areas) = hulls.evaluate(hulls.start)
+    missing, gradient, areas = hulls.evaluate(hulls.start)
     off = float(np.linalg.norm(missing))
     areas = np.maximum(areas, MIN_AREA * areas.max())
     radius = FIRST_RADIUS
@@ -300,7 +308,9 @@ def _solve(hulls: _Hulls, limit: float) -> Generator[float, None, tuple[Array, f
         if off <= MOVES_REACHED or radius < LEAST_RADIUS:
             break
         yield CORRECTING_SHARE
-        # Each corner moves within a ball that is in its trust region and within the limit.
+        # Each corner moves within the largest ball in both its trust region, around its last place,
+        # and the limit, around its start. On the line through both centers the ball is as wide as
+        # their common part.
         length = np.linalg.norm(moves, axis=1)
         reach = np.minimum(min(radius, limit), (radius + np.maximum(limit - length, 0.0)) / 2.0)
         middle = moves * np.minimum((limit - reach) / np.maximum(length, TINY), 1.0)[:, None]
@@ -308,18 +318,17 @@ def _solve(hulls: _Hulls, limit: float) -> Generator[float, None, tuple[Array, f
         trial = _least_moves(gradient, wanted, areas, middle, reach)
         expected = float(np.linalg.norm(wanted - np.einsum("knd,nd->k", gradient, trial)))
         try:
-            state = hulls.evaluate(hulls.start + trial)
-        except MeasureError:
+            trial_missing, trial_gradient, _ = hulls.evaluate(hulls.start + trial)
+        except MeasureError:  # a hull has become flat
             radius /= 4.0
             continue
-        trial_missing, trial_gradient, _ = state
         trial_off = float(np.linalg.norm(trial_missing))
         if off - trial_off > 0.1 * (off - expected):
             radius *= 2.0 if off - trial_off > 0.5 * (off - expected) else 1.0
             off = trial_off
             moves = trial
             missing, gradient = trial_missing, trial_gradient
-        else:
+        else:  # the mean of both ways to fold, as in the module's docstring
             gradient = (gradient + trial_gradient) / 2.0
             radius /= 2.0
     return hulls.start + moves, off
@@ -339,6 +348,9 @@ def _least_moves(
     slack = SLACK * float(np.einsum("knd,knd,n->k", rows, rows, 1.0 / areas).max())
 
     def judge(multiplier: NDArray) -> tuple[float, NDArray, NDArray, NDArray]:
+        """Return the negative dual function, to be minimized; (n, 3) moves; (n,) shares by which
+        they are cut to their balls; and (n, 3) unit vectors from the balls' middles.
+        """
         free = np.einsum("knd,k->nd", rows, multiplier) / areas[:, None]
         length = np.maximum(np.linalg.norm(free - middle, axis=1), TINY)
         cut = np.minimum(reach / length, 1.0)
@@ -351,6 +363,7 @@ def _least_moves(
     multiplier = np.zeros(count)
     value, moves, cut, along = judge(multiplier)
     for _ in range(MAX_MULTIPLIER_STEPS):
+        # The first derivative, and the second: of moves that are cut, without the radial part.
         slope = np.einsum("knd,nd->k", rows, moves) + slack * multiplier - wanted
         spread = (rows * np.sqrt(cut / areas)[:, None]).reshape(count, -1)
         radial = np.einsum("knd,nd->kn", rows, along) * np.sqrt(

@@ -66,8 +66,12 @@ def make_colliders(
         area = float(triangle_areas(hull.points, hull.triangles).sum())
         # Steiner's formula bounds the volume of all places this near to the hull; its mean width is
         # below its diagonal.
-        most = hull_volume(hull) + area * reach + 2.0 * pi * size * reach**2
-        most += 4.0 / 3.0 * pi * reach**3
+        most = (
+            hull_volume(hull)
+            + area * reach
+            + 2.0 * pi * size * reach**2
+            + 4.0 / 3.0 * pi * reach**3
+        )
         for name in SIMPLE:
             shape = fits.make(name)
             if shape.kind == "mesh" or _volume(shape) <= most:
@@ -83,8 +87,11 @@ def make_colliders(
 def _merge_within(
     hulls: list[ConvexHull], surface: Surface, wanted: Wanted
 ) -> Generator[float, None, list[ConvexHull]]:
-    """Merge pairs of pieces whose common hull keeps the outward distance, the smallest added volume
+    """Merge pairs of pieces whose common hull keeps the wanted distances, the smallest added volume
     first.
+
+    Outward the distance is sampled. Inward it is at most the sum of the gaps: distances of points
+    that a hull of few corners leaves outside, added up over merges.
     """
     tree = tree_of_all(surface.points, surface.all_triangles()[0])
     size = float(np.ptp(surface.points, axis=0).max())
@@ -92,7 +99,7 @@ def _merge_within(
     gaps = {number: hull.gap for number, hull in pieces.items()}
     volumes = {number: hull_volume(hull) for number, hull in pieces.items()}
     compared: set[tuple[int, int]] = set()
-    # The added volume, the numbers of two pieces, and their common hull.
+    # The added volume, the numbers of two pieces, and their common hull; sorted by the volume.
     trials: list[tuple[float, int, int, ConvexHull]] = []
     while True:
         for i, j in set(combinations(pieces, 2)) - compared:
@@ -101,16 +108,19 @@ def _merge_within(
             if merged.gap + max(gaps[i], gaps[j]) <= wanted.inward:
                 trials.append((hull_volume(merged) - volumes[i] - volumes[j], i, j, merged))
             compared.add((i, j))
-        trials = sorted(trial for trial in trials if {*trial[1:3]} <= pieces.keys())
-        best = None
-        while trials and best is None:
+        trials = sorted(
+            (added, i, j, merged)
+            for added, i, j, merged in trials
+            if i in pieces and j in pieces  # not merged meanwhile
+        )
+        while trials:
             yield MERGING_SHARE
-            trial = trials.pop(0)
-            if farthest_sample(tree, [trial[3]], size, wanted.outward)[0] < inf:
-                best = trial
-        if best is None:
+            _, i, j, merged = trials.pop(0)
+            farthest, _ = farthest_sample(tree, [merged], size, wanted.outward)
+            if farthest < inf:
+                break
+        else:
             return [*pieces.values()]
-        _, i, j, merged = best
         del pieces[i], pieces[j]
         number = max(volumes) + 1
         pieces[number] = merged
@@ -119,8 +129,8 @@ def _merge_within(
 
 
 class _Fits:
-    """The shapes around a hull. axes: principal axes as columns. corners: the most of a simpler
-    hull.
+    """The shapes around a hull. axes: principal axes as columns. corners: the largest number of
+    corners of a simpler hull.
     """
 
     def __init__(self, hull: ConvexHull, axes: Array, corners: int) -> None:
@@ -131,6 +141,7 @@ class _Fits:
 
     @cached_property
     def box(self) -> Shape:
+        """The smallest box."""
         is_simple = len(self.points) <= AXES_CORNERS
         return _smallest_box(
             self.hull if is_simple else convex_hull(self.points, max_corners=AXES_CORNERS), self
@@ -167,6 +178,7 @@ class _Fits:
 
 
 def _hull_shape(hull: ConvexHull) -> Shape:
+    """Return the mesh of a hull."""
     return Shape("mesh", surface=Surface.from_triangles(hull.points, hull.triangles))
 
 
@@ -179,7 +191,9 @@ def _box(points: Array, axes: Array) -> Shape:
 
 def _smallest_box(hull: ConvexHull, fits: _Fits) -> Shape:
     """Return the smallest box along the principal axes, along x, y and z, or with a side in a face
-    of the hull.
+    of the hull and another along an edge.
+
+    hull: simple enough to try all faces and edges. The box is around all points of `fits`.
     """
     points = fits.points
     corners = hull.points[hull.triangles]
@@ -187,6 +201,7 @@ def _smallest_box(hull: ConvexHull, fits: _Fits) -> Shape:
     boxes = [_box(points, fits.axes), _box(points, np.eye(3))]
     least = min(_volume(box) for box in boxes)
     for normal in _directions(normals(hull.points, hull.triangles)):
+        # The directions of the edges in the plane of the face; an edge across it has none.
         first = sides - np.outer(sides @ normal, normal)
         first = _units(first[np.linalg.norm(first, axis=1) > 1e-9])
         second = np.cross(normal, first)
@@ -199,26 +214,31 @@ def _smallest_box(hull: ConvexHull, fits: _Fits) -> Shape:
 
 
 def _volume(shape: Shape) -> float:
+    """Return the volume of a primitive."""
     return float(primitive_moments(shape).raw[0])
 
 
 def _directions(vectors: Array) -> Array:
-    """Return the unit vectors along some vectors, each direction once, without its sense."""
+    """Return the unit vectors along some vectors, each direction or its opposite once: the largest
+    coordinate is positive.
+    """
     units = _units(vectors[vectors.any(axis=1)])
     largest = units[np.arange(len(units)), np.abs(units).argmax(axis=1)]
     return np.unique(np.round(units * np.sign(largest)[:, None], 12), axis=0)
 
 
 def _units(vectors: Array) -> Array:
+    """Return vectors divided by their lengths, none of which is zero."""
     return vectors / np.linalg.norm(vectors, axis=1)[:, None]
 
 
 def _round_shape(kind: str, points: NDArray, axes: Array, middle: NDArray, radius: float) -> Shape:
-    """Return the cylinder around points along the third axis, or the capsule, which is as thin.
+    """Return the cylinder or the capsule around points along the third axis, of one radius.
 
     axes: columns. middle, radius: of the circle around the points along the third axis.
     """
     along = points @ axes
+    # How far a cap reaches over its end at a point's distance from the axis.
     caps = np.zeros(len(points))
     if kind == "capsule":
         caps = np.sqrt(np.maximum(radius**2 - ((along[:, :2] - middle) ** 2).sum(axis=1), 0.0))
@@ -231,8 +251,8 @@ def _round_shape(kind: str, points: NDArray, axes: Array, middle: NDArray, radiu
 def enclosing_ball(points: Array) -> tuple[Array, float]:
     """Return center and radius of the smallest ball, or circle, around (n, d) points.
 
-    The farthest point outside joins the points that hold the ball, of which the ball needs at most
-    d + 1.
+    The farthest point outside joins the holders, the points on the surface that determine the ball,
+    and the smallest ball around these is found among those through d + 1 of them at most.
     """
     dimension = points.shape[1]
     first = points[np.linalg.norm(points - points[0], axis=1).argmax()]
@@ -245,7 +265,7 @@ def enclosing_ball(points: Array) -> tuple[Array, float]:
             return center, float(distance[farthest])
         holders = np.concatenate([holders, points[farthest : farthest + 1]])
         last = len(holders) - 1
-        # The new point is on the surface of the new ball.
+        # The new point is on the surface of the new ball, which is larger.
         subsets = [
             holders[[*chosen, last]]
             for count in range(1, min(dimension, last) + 1)

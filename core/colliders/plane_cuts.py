@@ -24,7 +24,7 @@ class Piece:
     """Closed planar faces: each edge (start, end) of points belongs to a face, counter-clockwise
     from outside.
 
-    face, start, end: (e,). normals: (f, 3) of faces.
+    points: (n, 3). face, start, end: (e,) indices for each edge. normals: (f, 3) of faces.
     """
 
     points: Array
@@ -42,9 +42,9 @@ class Piece:
         return float(np.einsum("ij,ij->", a, np.cross(b, c))) / 6.0
 
     def first(self) -> Index:
-        """Return the index of one point of each face, (f,)."""
+        """Return the index of one point of each face, (f,): its first edge's start."""
         first = np.zeros(len(self.normals), np.intp)
-        first[self.face[::-1]] = self.start[::-1]
+        first[self.face[::-1]] = self.start[::-1]  # the last of equal indices wins
         return first
 
     def take(self, chosen: Mask) -> Piece:
@@ -61,12 +61,15 @@ def piece_from_surface(surface: Surface) -> Piece:
     points = np.asarray(surface.points, np.float64)
     triangles = _join_open_edges(points, triangles)
     normal = normals(points, triangles)
-    real = np.linalg.norm(normal, axis=1) > 0.0
-    triangles, normal = triangles[real], normal[real]
-    face = np.arange(len(triangles)).repeat(3)
-    start = triangles.ravel()
-    end = triangles[:, [1, 2, 0]].ravel()
-    return Piece(points, face, start, end, normal / np.linalg.norm(normal, axis=1)[:, None])
+    has_area = np.linalg.norm(normal, axis=1) > 0.0
+    triangles, normal = triangles[has_area], normal[has_area]
+    return Piece(
+        points=points,
+        face=np.arange(len(triangles)).repeat(3),
+        start=triangles.ravel(),
+        end=triangles[:, [1, 2, 0]].ravel(),
+        normals=normal / np.linalg.norm(normal, axis=1)[:, None],
+    )
 
 
 def _join_open_edges(points: Array, triangles: Index) -> Index:
@@ -91,6 +94,7 @@ def cut(piece: Piece, plane: Array) -> Iterator[Piece]:
     normal = plane[:3]
     height = piece.points @ normal - plane[3]
     height[np.abs(height) <= ON_PLANE_RTOL * np.ptp(piece.points, axis=0).max()] = 0.0
+    # One crossing for both uses of an edge, by a key of its ends: pieces stay closed.
     low = np.minimum(piece.start, piece.end)
     high = np.maximum(piece.start, piece.end)
     crosses = np.flatnonzero(height[low] * height[high] < 0.0)
@@ -111,7 +115,8 @@ def cut(piece: Piece, plane: Array) -> Iterator[Piece]:
 def _half(piece: Piece, height: NDArray, crossing: NDArray, normal: NDArray) -> Piece | None:
     """Return the part of a piece above a plane, closed in the plane; None if nothing is above.
 
-    height: of the points. crossing: the point on each edge in the plane, or -1.
+    height: (n,) of the points, without those of crossings. crossing: (e,) index of the point where
+    an edge crosses the plane, or -1. normal: (3,) upward.
     """
     from_above = height[piece.start] > 0.0
     to_above = height[piece.end] > 0.0
@@ -125,8 +130,9 @@ def _half(piece: Piece, height: NDArray, crossing: NDArray, normal: NDArray) -> 
     end = np.where(crosses & to_below, crossing, piece.end)
     leaves = kept & from_above & ~to_above
     enters = kept & to_above & ~from_above
-    # The places where each face's edges meet the plane, in order along it. Between two of them runs
-    # a chord as often as edges that left so far outnumber those that entered, or the other way.
+    # The points where each face's edges meet the plane, in order along the line that both have in
+    # common. Between two of them run as many chords as edges that left before outnumber those that
+    # entered, forward, or the other way, backward. At a face's end the count is 0 again.
     place = np.concatenate([end[leaves], start[enters]])
     face = np.concatenate([piece.face[leaves], piece.face[enters]])
     step = np.repeat([1, -1], [np.count_nonzero(leaves), np.count_nonzero(enters)])
@@ -155,17 +161,18 @@ def connected_parts(piece: Piece) -> Iterator[Piece]:
     """Yield the connected parts of a piece; a cavity, and a hole of a face, belong to the part
     around them.
     """
-    label, number = connected_components(len(piece.points), piece.start, piece.end)
-    if number == 1:
+    label, count = connected_components(len(piece.points), piece.start, piece.end)
+    if count == 1:
         yield piece
         return
     first, second = _joined_by_faces(piece, label)
-    group, _ = connected_components(number, first, second)
-    label = group[label]
-    parts = [piece.take(label[piece.start] == one) for one in np.unique(label[piece.start])]
+    group, _ = connected_components(count, first, second)
+    edge_label = group[label][piece.start]
+    parts = [piece.take(edge_label == number) for number in np.unique(edge_label)]
     volumes = [part.volume() for part in parts]
     boxes = [(part.points.min(axis=0), part.points.max(axis=0)) for part in parts]
     owner = list(range(len(parts)))
+    # A cavity, whose volume is negative, belongs to the smallest part with a box around its own.
     for i in np.flatnonzero(np.array(volumes) < 0.0).tolist():
         around = [
             j
@@ -181,6 +188,7 @@ def connected_parts(piece: Piece) -> Iterator[Piece]:
 
 
 def _join(parts: Sequence[Piece]) -> Piece:
+    """Return one piece of the points, edges and faces of all parts."""
     points = np.cumsum([0, *(len(part.points) for part in parts)])
     faces = np.cumsum([0, *(len(part.normals) for part in parts)])
     return Piece(
@@ -193,7 +201,10 @@ def _join(parts: Sequence[Piece]) -> Piece:
 
 
 def _joined_by_faces(piece: Piece, label: Index) -> tuple[Index, Index]:
-    """Return pairs of labels: of the holes in faces, and of the cycles around these."""
+    """Return pairs of labels, (p,) and (p,): of the holes in faces, and of the cycles around them.
+
+    label: (n,) connected components of the points. A face of one component has no such hole.
+    """
     pairs = []
     of_edge = label[piece.start]
     low = np.full(len(piece.normals), len(label))

@@ -32,6 +32,7 @@ from ..numerics import (
     float_array,
     index_array,
     lengths,
+    run_starts,
     unit_vector,
 )
 from ..verdict import MeasureError
@@ -84,15 +85,18 @@ class Hollow:
         return float(self.below([self.spill]).volume[0])
 
     def contents(self, level: float) -> PartBelow:
-        """Return the liquid up to a level; MeasureError if there is none, or it runs over."""
+        """Return the liquid up to a level; MeasureError if there is none, or it runs over.
+
+        A cavity cannot run over: a level above it stands for a full one.
+        """
         if level <= self.bottom:
             raise MeasureError(LEVEL_UNAVAILABLE, fault=LIQUID_ABSENT)
         if level > self.spill + 4.0 * U * abs(self.spill) and not self.sealed:
             self._overflow()
-        found = self.below([level])
-        if not found.volume[0] > 0.0:
+        liquid = self.below([level])
+        if not liquid.volume[0] > 0.0:
             raise MeasureError(LEVEL_UNAVAILABLE, fault=LIQUID_ABSENT)
-        return found
+        return liquid
 
     def free_surface(self, liquid: PartBelow, level: float) -> Moments | None:
         """Return the surface of the liquid up to a level; None if it fills a cavity."""
@@ -109,19 +113,21 @@ class Hollow:
         low, high = self.bottom, self.spill
         level = low + (high - low) * volume / self.capacity
         for _ in range(MAX_STEPS):
-            found = self.below([level])
-            excess = float(found.volume[0]) - volume
+            liquid = self.below([level])
+            excess = float(liquid.volume[0]) - volume
             low, high = (low, level) if excess > 0.0 else (level, high)
-            area = float(found.face_area[0])
-            step = level - excess / area if area > 0.0 else high
-            if not low < step < high:
-                step = (low + high) / 2.0
-            if abs(step - level) <= 2.0 * U * max(abs(self.bottom), abs(self.spill)):
+            # Newton's step, or half of the interval if that leaves it.
+            area = float(liquid.face_area[0])
+            next_level = level - excess / area if area > 0.0 else high
+            if not low < next_level < high:
+                next_level = (low + high) / 2.0
+            if abs(next_level - level) <= 2.0 * U * max(abs(self.bottom), abs(self.spill)):
                 break
-            level = step
+            level = next_level
         return level
 
     def _overflow(self) -> None:
+        """Raise MeasureError: the liquid runs over."""
         raise MeasureError(VESSEL_OVERFLOWS, capacity=self.capacity, level=self.spill)
 
 
@@ -161,6 +167,7 @@ def find_hollow(points: ArrayLike, triangles: ArrayLike, up: ArrayLike = (0.0, 0
     up = unit_vector("up", up)
     used, triangles = np.unique(first_at_equal_position(points)[triangles], return_inverse=True)
     points = points[used]
+    # Points are numbered by height: from here on, the lower of two points has the smaller index.
     heights = points @ up
     order = np.argsort(heights, kind="stable")
     points, heights = points[order], heights[order]
@@ -173,7 +180,7 @@ def find_hollow(points: ArrayLike, triangles: ArrayLike, up: ArrayLike = (0.0, 0
     _, start, stop = uncancelled_sides(triangles, np.zeros(len(triangles), np.intp))
     rim = np.union1d(start, stop)
     best = _largest(points, heights, triangles, up, rim)
-    if len(rim):
+    if len(rim):  # a sheet may face either way
         turned = _largest(points, heights, triangles[:, ::-1], up, rim)
         if turned is not None and (best is None or turned.capacity > TURNED_SHARE * best.capacity):
             best = turned
@@ -196,9 +203,10 @@ def _without_copies(triangles: Index) -> Index:
     facing = np.bincount(first, side, count)[first]
     rest = triangles[facing != 0.0]
     _, start, stop = uncancelled_sides(rest, np.zeros(len(rest), np.intp))
+    # Copies of both kinds: a side of the rest's boundary must run against the copy's.
     size = int(triangles.max()) + 1
     fits = np.isin(following * size + triangles, start * size + stop).any(axis=1)
-    fits &= np.bincount(first, fits, count)[first] == 1.0
+    fits &= np.bincount(first, fits, count)[first] == 1.0  # just one of the copies
     chosen = np.flatnonzero(np.where(facing != 0.0, side * facing > 0.0, fits))
     _, rows = np.unique(first[chosen], return_index=True)
     undecided = np.flatnonzero(~np.isin(first, first[chosen]))
@@ -208,7 +216,10 @@ def _without_copies(triangles: Index) -> Index:
 def _largest(
     points: Array, heights: Array, triangles: Index, up: Array, rim: Index
 ) -> Hollow | None:
-    """Return the largest hollow of a surface, whose points ascend; None if there is none."""
+    """Return the largest hollow of a surface; None if there is none.
+
+    points, heights: ascending, so that indices compare heights. rim: points of open edges.
+    """
     a, b = triangles.ravel(), np.roll(triangles, -1, axis=1).ravel()
     low, high = np.minimum(a, b), np.maximum(a, b)
     candidates = _hollows(points, triangles, low, high, up, rim)
@@ -216,6 +227,7 @@ def _largest(
     best = None
     for i in np.argsort(depth)[::-1][:MAX_CANDIDATES]:
         bottom, top = candidates[i]
+        # The sides below the spill point connect the points of the hollow.
         wet = high < top
         label, _ = connected_components(len(points), low[wet], high[wet])
         lowest = triangles.min(axis=1)
@@ -236,9 +248,11 @@ def _hollows(
 ) -> list[tuple[int, int]]:
     """Return the lowest point of each hollow, and the point where it spills, n for a cavity.
 
-    low, high: ends of the triangles' sides.
+    points: (n, 3), ascending. low, high: (s,) lower and upper ends of the triangles' sides. rim:
+    (r,) points of open edges.
     """
     count = len(points)
+    # From the lowest neighbor of each point to the lowest point of its region, itself.
     parent = np.arange(count)
     np.minimum.at(parent, high, low)
     while not np.array_equal(above := parent[parent], parent):
@@ -250,15 +264,16 @@ def _hollows(
     passes = np.concatenate([high, rim])
     is_link = first != second
     first, second, passes = first[is_link], second[is_link], passes[is_link]
-    # Of each pair of regions the lowest pass, then all in order of height.
+    # The lowest pass between each pair of regions, then these passes in order of height.
     pair = np.minimum(first, second) * (count + 1) + np.maximum(first, second)
     order = np.lexsort([passes, pair])
-    order = order[np.diff(pair[order], prepend=np.iinfo(np.intp).min) != 0]
+    order = order[run_starts(pair[order])]
     order = order[np.argsort(passes[order], kind="stable")]
     # A union-find forest of regions by their lowest points; the lower region is the root.
     root = {int(bottom): int(bottom) for bottom in np.unique(parent)} | {-1: -1}
 
     def find(item: int) -> int:
+        """Return the lowest point of the union of an item; the outside, -1, is below all."""
         while root[item] != item:
             root[item] = root[root[item]]
             item = root[item]
@@ -279,8 +294,9 @@ def _hollows(
 def _faces_up(points: Array, triangles: Index, lowest: Mask, up: Array) -> Mask:
     """Return an (n,) mask of the lowest points of regions with air above them.
 
-    Below a lowest point, that point is the nearest one of the surface around it, so that the sum of
-    normals weighted by angles tells the side (Bærentzen and Aanæs 2005).
+    lowest: (n,) mask of these points. A place just below one has no point of the surface nearer, so
+    that the sum of normals around it, weighted by angles, tells on which side of the surface the
+    place is (Bærentzen and Aanæs 2005). If the sum points up, that is inside: the air is above.
     """
     around = triangles[lowest[triangles].any(axis=1)]
     corners = points[around]
@@ -330,26 +346,25 @@ def spill_tilt(
     """
     hollow = find_hollow(points, triangles, up)
     first, second, _ = np.array(frame_about(hollow.up.tolist()))
-    angles = np.arange(DIRECTIONS) * (2.0 * np.pi / DIRECTIONS)
-    best, way = np.pi, first
     if hollow.sealed:
-        return best, way
+        return np.pi, first
 
-    def spills(angle: float, direction: Array) -> bool:
+    def spills(tilt: float, direction: Array) -> bool:
         # Tilting the vessel toward the direction tilts the vertical away from it.
-        tilted = np.cos(angle) * hollow.up - np.sin(angle) * direction
+        tilted = np.cos(tilt) * hollow.up - np.sin(tilt) * direction
         try:
             return find_hollow(points, triangles, tilted).capacity < volume
         except MeasureError:
             return True
 
-    for angle in angles:
-        direction = np.cos(angle) * first + np.sin(angle) * second
-        if not spills(best * (1.0 - TILT_RTOL), direction):
+    least_tilt, least_direction = np.pi, first
+    for azimuth in np.arange(DIRECTIONS) * (2.0 * np.pi / DIRECTIONS):
+        direction = np.cos(azimuth) * first + np.sin(azimuth) * second
+        if not spills(least_tilt * (1.0 - TILT_RTOL), direction):
             continue
-        low, high = 0.0, best
+        low, high = 0.0, least_tilt
         for _ in range(TILT_ROUNDS):
             middle = (low + high) / 2.0
             low, high = (low, middle) if spills(middle, direction) else (middle, high)
-        best, way = high, direction
-    return best, way
+        least_tilt, least_direction = high, direction
+    return least_tilt, least_direction

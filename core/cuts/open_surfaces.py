@@ -31,7 +31,6 @@ from ..moments import Moments, sum_moments
 from ..numerics import (
     Array,
     ArrayLike,
-    Index,
     Integers,
     Mask,
     NDArray,
@@ -135,6 +134,8 @@ def cut_fill(
     both = measure_below(
         points, triangles, [-up, up], [-offset, offset], displacement, is_open=True
     )
+    # Along -up, the part above the plane counts as below, and its triangles face down: a positive
+    # volume. Along up, the triangles face up: a negative one.
     cut, fill = both.part.at(0), both.part.at(1) * -1.0
     areas = np.abs(both.face_area)
     return CutFill(cut, fill, float(areas[0]), float(areas[1]), up, offset)
@@ -184,9 +185,11 @@ def fit_rim(
     weight = length[kept] / length[kept].sum()
     center = weight @ ends.mean(axis=0)
     ends = ends - center
+    # 6 ∫ x x' over the sides: Σ weight (a a' + b b' + (a + b)(a + b)') with their ends a and b.
     total = ends.sum(axis=0)
-    spread = np.einsum("s,si,sj->ij", weight, total, total)
-    spread += np.einsum("s,esi,esj->ij", weight, ends, ends)
+    spread = np.einsum("s,si,sj->ij", weight, total, total) + np.einsum(
+        "s,esi,esj->ij", weight, ends, ends
+    )
     width, axes = np.linalg.eigh(spread)
     normal = axes[:, 0] * (1.0 if axes[:, 0] @ up >= 0.0 else -1.0)
     if width[1] <= MIN_RIM_SPREAD**2 * width[2] or abs(normal @ up) < MIN_RIM_SPREAD:
@@ -244,25 +247,26 @@ def cut_fill_between(
     other_points, other_triangles, _ = _open_surface(other_points, other_triangles, up)
     frame = np.array(frame_about(up.tolist()))
     center = (points.min(axis=0) + points.max(axis=0)) / 2.0
+    # The corners of both surfaces, (t, 3, 3), with z up, without upright triangles.
     surfaces = []
-    for each, faces in ((points, triangles), (other_points, other_triangles)):
-        corners = ((each - center) @ frame.T)[faces]
+    for vertices, faces in ((points, triangles), (other_points, other_triangles)):
+        corners = ((vertices - center) @ frame.T)[faces]
         area = _doubled_area(corners)
-        size = np.linalg.norm(normals(each, faces), axis=1)
-        upright = area <= UPRIGHT * size
-        if (upright & (area < -UPRIGHT * size)).any():
+        size = np.linalg.norm(normals(vertices, faces), axis=1)
+        is_upright = area <= UPRIGHT * size
+        if (area < -UPRIGHT * size).any():
             raise MeasureError(CUT_FILL_UNAVAILABLE, fault=OVERHANGS)
-        if upright.all():
+        if is_upright.all():
             raise MeasureError(CUT_FILL_UNAVAILABLE, fault=APART)
-        surfaces.append(corners[~upright])
+        surfaces.append(corners[~is_upright])
     sums: list[list[Moments]] = [[], []]
     areas = np.zeros(2)
-    boxes = [(each[..., :2].min(axis=1), each[..., :2].max(axis=1)) for each in surfaces]
+    boxes = [(corners[..., :2].min(axis=1), corners[..., :2].max(axis=1)) for corners in surfaces]
     for i, j, _ in rectangle_pairs(*boxes):
         pieces = _cut_pairs(surfaces[0][i], surfaces[1][j])
         above = pieces[..., 2] - pieces[..., 3]
         for side, sign in enumerate((1.0, -1.0)):
-            part, count = _clip(pieces, sign * above)
+            part = _clip(pieces, sign * above)
             fan = np.stack(
                 [np.broadcast_to(part[:, :1], part[:, 1:-1].shape), part[:, 1:-1], part[:, 2:]],
                 axis=2,
@@ -270,8 +274,9 @@ def cut_fill_between(
             fan = fan[_doubled_area(fan) > 0.0]
             if not len(fan):
                 continue
-            own, others = fan[:, :, [0, 1, 2]], fan[:, ::-1, [0, 1, 3]]
-            soup = np.concatenate([own, others] if side == 0 else [own[:, ::-1], others[:, ::-1]])
+            # The first surface's triangles, and the other's, which face down: outward for a cut.
+            upper, lower = fan[:, :, [0, 1, 2]], fan[:, ::-1, [0, 1, 3]]
+            soup = np.concatenate([upper, lower] if side == 0 else [upper[:, ::-1], lower[:, ::-1]])
             level = float(soup[..., 2].max())
             # A plane above all leaves the bodies whole.
             body = measure_below(
@@ -294,7 +299,8 @@ def cut_fill_between(
 def _open_surface(
     points: ArrayLike, triangles: ArrayLike, normal: ArrayLike
 ) -> tuple[Array, Integers, Array]:
-    """Return the surface with its faces consistent and each part facing up, and the unit normal.
+    """Return the points, the triangles, consistent and with each part facing up, and the unit
+    normal.
 
     MeasureError if it is closed or has no faces.
     """
@@ -327,8 +333,10 @@ def _doubled_area(corners: NDArray) -> Array:
 
 
 def _cut_pairs(first: Array, second: Array) -> Array:
-    """Return (p, 6, 4) convex pieces x, y and both heights of p triangles, (p, 3, 3), within p
-    others, seen from above.
+    """Return (p, 6, 4) corners x, y and both heights of the convex pieces of (p, 3, 3) triangles
+    within p others, seen from above.
+
+    The other height is that of the plane through the second triangle, kept between its corners'.
     """
     pieces = np.concatenate([first, first[..., 2:]], axis=2)
     for k in range(3):
@@ -336,7 +344,7 @@ def _cut_pairs(first: Array, second: Array) -> Array:
         way = side - start
         offset = pieces[..., :2] - start
         inside = way[..., 0] * offset[..., 1] - way[..., 1] * offset[..., 0]
-        pieces, _ = _clip(pieces, inside)
+        pieces = _clip(pieces, inside)
     a, b = second[:, 1:2] - second[:, :1], second[:, 2:] - second[:, :1]
     offset = pieces[..., :2] - second[:, :1, :2]
     area = a[..., 0] * b[..., 1] - a[..., 1] * b[..., 0]
@@ -348,13 +356,14 @@ def _cut_pairs(first: Array, second: Array) -> Array:
     return pieces
 
 
-def _clip(polygons: Array, side: Array) -> tuple[Array, Index]:
+def _clip(polygons: Array, side: Array) -> Array:
     """Cut (p, k, d) convex polygons to where a linear function, (p, k) at their corners, is not
-    negative: return (p, k + 1, d) polygons, whose last corners repeat, and numbers of corners.
+    negative: return (p, k + 1, d) polygons, whose last corners repeat, zero if nothing is left.
     """
     following, next_side = np.roll(polygons, -1, axis=1), np.roll(side, -1, axis=1)
     keeps: Mask = side >= 0.0
     crosses = keeps != (next_side >= 0.0)
+    # After each corner, the crossing of its side; of these 2 k places, first the kept ones.
     share = side / np.where(crosses, side - next_side, 1.0)
     crossing = polygons + share[..., None] * (following - polygons)
     count, k, d = polygons.shape
@@ -362,8 +371,9 @@ def _clip(polygons: Array, side: Array) -> tuple[Array, Index]:
     kept = np.stack([keeps, crosses], axis=2).reshape(count, 2 * k)
     order = np.argsort(~kept, axis=1, kind="stable")[:, : k + 1]
     number = kept.sum(axis=1)
+    # Places in the order, the last kept one again and again.
     last = np.minimum(np.arange(k + 1), np.maximum(number - 1, 0)[:, None])
     order = np.take_along_axis(order, np.minimum(last, k), axis=1)
     clipped = np.take_along_axis(corners, order[..., None], axis=1)
     clipped[number == 0] = 0.0
-    return clipped, number
+    return clipped

@@ -47,6 +47,7 @@ from ..numerics import (
     batches,
     float_array,
     index_array,
+    run_starts,
     segment_ranges,
 )
 from ..polyhedron import BOUNDARY_OPEN
@@ -230,6 +231,7 @@ def measure_below(
     heights = offsets / sizes - units @ center
     # The plane's height and the points' rounded coordinates shift the cut.
     step = float(np.linalg.norm(displacement))
+    # The heights err by at most 2 roundings of the offsets, and by scalar products with the center.
     noise = 2.0 * U * (np.abs(offsets / sizes) + 4.0 * float(np.abs(center).max()))
     parts = np.zeros((len(normals), 10))
     faces = np.zeros((len(normals), 10))
@@ -247,10 +249,10 @@ def measure_below(
         )
         axes[rows] = frame.T
     matrices = np.concatenate([axes, np.broadcast_to(center[:, None], (len(axes), 3, 1))], axis=2)
-    zero = np.zeros_like(about)
     centers = np.broadcast_to(center, about.shape)
-    # A rotation stretches neither volumes nor areas, however it was rounded.
-    part = unchecked_moments(parts, zero, Measure.MASS, bounds[0], bounds[1])
+    # As masses, which no map scales: a rotation stretches neither volumes nor areas, however it was
+    # rounded.
+    part = unchecked_moments(parts, np.zeros_like(about), Measure.MASS, bounds[0], bounds[1])
     face = unchecked_moments(faces, about, Measure.MASS, bounds[2], bounds[3])
     part, face = image(part, matrices, centers), image(face, matrices)
     return PartBelow(
@@ -281,11 +283,12 @@ def _below(
     step: float,
     is_open: bool,
 ) -> tuple[Array, Array, Array, Array]:
-    """Return (k, 10) moments of the parts below k ascending heights and of their faces, (k, 3)
-    points of the latter, and (4, k, 10) bounds of rounding and input of parts and of faces.
+    """Return (k, 10) moments of the parts below k ascending heights, and of their faces; (k, 3)
+    points that the latter are about; and (4, k, 10) bounds: of the parts by rounding and by
+    storing, then of the faces.
 
-    points: (3, n) with z along the normal. noise: (k,) errors of the heights. step: displacement of
-    the points by storing.
+    points: (3, n) from the point that the parts are about, z along the normal. noise: (k,) errors
+    of the heights. step: displacement of the points by storing.
     """
     low = points.min(axis=1, initial=0.0)
     high = points.max(axis=1, initial=0.0)
@@ -303,7 +306,7 @@ def _below(
     faces = np.where(EXPONENTS[:, 2, None] == 0, -sums[:10], 0.0)
     if not is_open:
         faces[:, heights > high[2]] = 0.0
-    area, spread, edges, count, unclear, roundings = sizes
+    area, spread, edges, count, unclear, roundings = sizes  # as in `_sums_below`
     largest = np.multiply.reduce((reach + shifts.sum(axis=0)) ** EXPONENTS[:, :, None], axis=1)
     products = U * ((PRODUCT_ROUNDINGS + roundings) * area + SPREAD_ROUNDINGS * spread)
     bounds = np.zeros((4, *parts.shape))
@@ -337,7 +340,7 @@ def _sums_below(
     # The first level above each point, and the first that is not below it.
     above = np.searchsorted(levels, points[2], "right").astype(index)
     not_below = np.searchsorted(levels, points[2], "left").astype(index)
-    # In this mode take checks no indices, which costs half of its time.
+    # The mode "clip" saves checks of the indices, half of the time; `index_array` has checked them.
     columns = np.ascontiguousarray(triangles.T)
     a, b, c = above.take(columns, mode="clip")
     # Of each triangle, the first levels above its lowest and above its middle corner.
@@ -388,7 +391,9 @@ def _sums_below(
 
 
 def _weights(corners: Array) -> tuple[Array, Array]:
-    """Return (t,) doubled projected areas of (3, 3, t) corners, and (5, t) sizes."""
+    """Return (t,) doubled projected areas of (3, 3, t) corners (axis, corner, triangle), and (5, t)
+    sizes: the first four of `_sums_below`, and a row of zeros.
+    """
     edges = corners[:, 1:] - corners[:, :1]
     (ax, bx), (ay, by), (az, bz) = edges
     plus, minus = ax * by, ay * bx
@@ -403,8 +408,10 @@ def _weights(corners: Array) -> tuple[Array, Array]:
 
 
 def _add_sums(table: Array, corners: Array, weight: Array, sizes: Array, level: Index) -> None:
-    """Add the sums over (3, 3, t) corners, with their (5, t) sizes, to the columns of the table,
-    given by (t,) ascending levels.
+    """Add the sums over (3, 3, t) corners to rows 0 to 15 of the (21, k) table, and their (5, t)
+    sizes to the other rows, in the columns of the (t,) ascending levels.
+
+    weight: (t,) signed, doubled projected areas. The rows lack the factors DIVISORS.
     """
     rows = np.empty((21, len(weight)))
     rows[0] = weight
@@ -425,5 +432,5 @@ def _add_sums(table: Array, corners: Array, weight: Array, sizes: Array, level: 
         products_by_z += 0.5 * (rows[1 + i] * tilted[i:] + rows[1 + i : 4] * tilted[i])
         row += 3 - i
     rows[16:] = sizes
-    starts = np.flatnonzero(np.diff(level, prepend=-1))
+    starts = run_starts(level)
     table[:, level[starts]] += np.add.reduceat(rows, starts, axis=1)

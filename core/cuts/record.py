@@ -63,6 +63,7 @@ def contents_record(surface: Surface, level: float) -> dict[str, Any] | None:
 
 
 def _moments(name: str, moments: Moments) -> dict[str, Any]:
+    """Return the entries of a total, named, its center and its second moments about that."""
     central = moments.about_center()
     return {
         name: moments.total,

@@ -38,17 +38,17 @@ from ..polyhedron import SimplexMoments, enclosed_moments, multi_indices
 from ..verdict import MeasureError
 from .findings import NO_SECTION_AREA, OUTLINE_OPEN, OUTLINES_COINCIDE, OUTLINES_ENCLOSE_NONE
 
-SAMPLES_PER_OUTLINE = (
-    16  # Edge midpoints of an outline that are tested for lying in other outlines.
-)
+# Edge midpoints of an outline that are tested for lying in other outlines.
+SAMPLES_PER_OUTLINE = 16
 # Limit of compared pairs of edges, and of pairs of a ray and an edge; rays beyond it are thinned
 # out.
 MAX_EDGE_PAIRS = 10_000_000
 PAIRS_PER_BLOCK = 1 << 18  # Pairs at a time.
 RAYS_PER_BLOCK = 64  # neighboring rays at a time, which meet much the same edges
-TOUCH_RTOL = (
-    1e-9  # Relative to the polygon's size: edges that pass each other by less than this touch.
-)
+# Relative to the polygon's size: edges that pass each other by less than this touch.
+TOUCH_RTOL = 1e-9
+# Relative to the distances from an edge's ends: a point this near to its line is on it.
+ON_EDGE_RTOL = 1e-12
 BOUND_ROUNDING = 1.0 + 1e-9  # The sums that make a bound are rounded themselves.
 EDGES_PER_BLOCK = 4096
 
@@ -124,22 +124,24 @@ def orient_loops(points: ArrayLike, loops: Sequence[ArrayLike]) -> Index:
         np.array([extreme(points[loop], axis=0) for loop in loops]).reshape(-1, 2)
         for extreme in (np.min, np.max)
     )
-    order = []
+    oriented = []
     for i, loop in enumerate(loops):
+        # Loops whose boxes contain that of this loop.
         around = np.flatnonzero((lows <= lows[i]).all(axis=1) & (highs >= highs[i]).all(axis=1))
         edges = directed_edges([loop])
-        middle = points[edges[:: max(1, len(edges) // SAMPLES_PER_OUTLINE)]].mean(axis=1)
+        midpoints = points[edges[:: max(1, len(edges) // SAMPLES_PER_OUTLINE)]].mean(axis=1)
         depth = 0
         for j in around[around != i].tolist():
-            winding = np.abs(winding_numbers(points, directed_edges([loops[j]]), middle))
-            clear = np.abs(winding - 0.5)  # a midpoint on the other loop has half a turn
-            if clear.max() < 0.25:
+            winding = np.abs(winding_numbers(points, directed_edges([loops[j]]), midpoints))
+            # 0.5 inside and outside of the other loop, 0 on it, where it winds by half a turn
+            clearness = np.abs(winding - 0.5)
+            if clearness.max() < 0.25:
                 raise MeasureError(OUTLINES_COINCIDE)
-            depth += int(winding[np.argmax(clear)] > 0.5)
+            depth += int(winding[np.argmax(clearness)] > 0.5)
         a, b = (points[edges[:, k]] - points[edges[0, 0]] for k in (0, 1))
-        ahead = float((a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]).sum()) > 0.0
-        order.append(loop if ahead == (depth % 2 == 0) else loop[::-1])
-    return directed_edges(order)
+        is_counterclockwise = float((a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]).sum()) > 0.0
+        oriented.append(loop if is_counterclockwise == (depth % 2 == 0) else loop[::-1])
+    return directed_edges(oriented)
 
 
 def outline_areas(points: NDArray, edges: NDArray) -> Array:
@@ -156,25 +158,25 @@ def outline_areas(points: NDArray, edges: NDArray) -> Array:
 def find_defects(points: ArrayLike, edges: ArrayLike, error: float = 0.0) -> OutlineDefects:
     """Find defects that make the inside of (m, 2) edges between (n, 2) points ambiguous.
 
-    Outlines may touch, at corners and along edges; edges so short that their ends touch have no
-    sides. error: the largest distance of the points from their intended places; overlaps of no more
-    count as touching.
+    Outlines may touch, at corners and along edges; the sides of edges so short that their ends
+    touch are not tested. error: the largest distance of a point from its intended place; overlaps
+    that it may cause count as touching.
     """
     points, edges = edge_arrays(points, edges)
     if not len(edges):
-        return OutlineDefects(0, False, False)
-    corner = points[edges.ravel()].min(axis=0)
-    local = np.subtract(points, corner)
+        return OutlineDefects(crossings=0, too_many_pairs=False, overlapping=False)
+    local = np.subtract(points, points[edges.ravel()].min(axis=0))
+    # Two edges that should touch pass each other by at most 2 errors; 4 leaves a margin.
     touch = TOUCH_RTOL * float(local[edges.ravel()].max()) + 4.0 * error
-    crossings, shared, lost = _crossing_pairs(local, edges, touch)
+    crossings, shared_length, too_many_pairs = _crossing_pairs(local, edges, touch)
     left, right = _side_windings(local, edges, touch)
     negative = bool((right < 0).any())
     return OutlineDefects(
-        crossings,
-        lost,
-        negative or bool((left < right).any() or (left > 1).any()),
-        negative,
-        shared,
+        crossings=crossings,
+        too_many_pairs=too_many_pairs,
+        overlapping=negative or bool((left < right).any() or (left > 1).any()),
+        negative=negative,
+        shared_length=shared_length,
     )
 
 
@@ -189,22 +191,24 @@ def winding_numbers(points: NDArray, edges: NDArray, query_points: NDArray) -> A
         a, b = spans[:, :, 0], spans[:, :, 1]
         cross = a[..., 0] * b[..., 1] - a[..., 1] * b[..., 0]
         along = (a * b).sum(axis=2)
-        # A point on an edge sees its ends in opposite directions, with a sign that is rounding.
-        on = (np.abs(cross) <= 1e-12 * np.abs(along)) & (along <= 0.0)
-        turns.append(np.where(on, 0.0, np.arctan2(cross, along)).sum(axis=1) / (2.0 * np.pi))
+        # A point on an edge sees its ends in opposite directions: half a turn, whose sign is
+        # rounding. The mean of both signs is 0.
+        is_on = (np.abs(cross) <= ON_EDGE_RTOL * np.abs(along)) & (along <= 0.0)
+        turns.append(np.where(is_on, 0.0, np.arctan2(cross, along)).sum(axis=1) / (2.0 * np.pi))
     return np.concatenate(turns)
 
 
 def _side_windings(points: NDArray, edges: NDArray, touch: float) -> tuple[Int64, Int64]:
-    """Return the (k,) winding numbers left and right of edges, by rays across them; of a sample of
-    many edges.
+    """Return the (k,) winding numbers left and right of edges longer than 4 `touch`, by rays across
+    them; of a sample if there are too many edges.
     """
     span = np.abs(points[edges[:, 1]] - points[edges[:, 0]])
     steep = span[:, 1] >= span[:, 0]
     long = np.hypot(*span.T) > 4.0 * touch
     parts = [
         _steep_side_windings(points, edges, np.flatnonzero(steep & long), touch),
-        # Mirrored, and each edge turned round: left stays left.
+        # A mirror image across x = y makes these edges steep, and swaps their sides. Turning each
+        # edge round swaps them back.
         _steep_side_windings(points[:, ::-1], edges[:, ::-1], np.flatnonzero(~steep & long), touch),
     ]
     left, right = zip(*parts)
@@ -214,8 +218,8 @@ def _side_windings(points: NDArray, edges: NDArray, touch: float) -> tuple[Int64
 def _steep_side_windings(
     points: NDArray, edges: NDArray, chosen: NDArray, touch: float
 ) -> tuple[NDArray, NDArray]:
-    """Return `_side_windings` of the chosen, steep edges, by rays to the right from their
-    middles.
+    """Return `_side_windings` of edges with the indices `chosen`, which rise at least as much as
+    they run, by rays to the right from their middles.
     """
     start, end = points[edges[:, 0]], points[edges[:, 1]]
     low = np.minimum(start, end)[:, 1] - touch
@@ -223,7 +227,8 @@ def _steep_side_windings(
     along = end - start
     length = np.hypot(*along.T)
     height = float(high.max() - low.min()) or 1.0
-    # Share of the edges that a ray may meet; if these are too many, fewer rays are taken.
+    # Share of the edges that a ray may meet, with those that the rays of its block meet; if these
+    # are too many, fewer rays are taken.
     share = min(1.0, float((high - low).mean()) / height + RAYS_PER_BLOCK / len(edges))
     pair_count = len(chosen) * len(edges) * max(share, 1.0 / RAYS_PER_BLOCK)
     chosen = chosen[:: max(1, int(pair_count / MAX_EDGE_PAIRS))]
@@ -241,12 +246,14 @@ def _steep_side_windings(
         turn = (b[:, 1] > y).astype(np.int64) - (a[:, 1] > y)
         offset = d[:, 0] * (y - a[:, 1]) - d[:, 1] * (x - a[:, 0])  # positive to the edge's left
         is_beside = (x - a[:, 0]) * (x - b[:, 0]) + (y - a[:, 1]) * (y - b[:, 1]) <= 0.0
-        nearest = np.maximum(touch, 1e-12 * length[near]) * length[near]
-        is_here = is_beside & (np.abs(offset) <= nearest)
+        # An offset is a distance from the edge's line times the edge's length.
+        largest = np.maximum(touch, ON_EDGE_RTOL * length[near]) * length[near]
+        is_here = is_beside & (np.abs(offset) <= largest)
         is_ahead = (offset > 0.0) == (turn > 0)
         beyond = np.where(is_ahead & ~is_here, turn, 0).sum(axis=1)
         here = np.where(is_here, turn, 0).sum(axis=1)
-        # From right of the middle one ray; from left of it the same and all edges that lie here.
+        # A ray from the right of the middle crosses the edges beyond; one from the left of it also
+        # crosses all edges that lie here.
         is_upward = along[chosen[part], 1] > 0.0
         left[part] = np.where(is_upward, beyond + here, beyond)
         right[part] = np.where(is_upward, beyond, beyond + here)
@@ -255,7 +262,7 @@ def _steep_side_windings(
 
 def _crossing_pairs(points: NDArray, edges: NDArray, touch: float) -> tuple[int, float, bool]:
     """Return the count of pairs of edges that cross by more than `touch`, the length along which
-    edges oppose each other, and True if there are too many pairs to compare.
+    edges run against each other within `touch`, and True if there are too many pairs to compare.
     """
     start, end = points[edges[:, 0]], points[edges[:, 1]]
     length = np.hypot(*(end - start).T)
@@ -281,7 +288,8 @@ def _crossing_pairs(points: NDArray, edges: NDArray, touch: float) -> tuple[int,
         i, j = i[along], j[along]
         unit = (end[i] - start[i]) / length[i, None]
         first, last = (((point[j] - start[i]) * unit).sum(axis=1) for point in (start, end))
-        # For opposite edges first is beyond last.
+        # Of edges that run against each other, the second starts (first) beyond its end (last); the
+        # common length of others is negative or as short as touching ends.
         common = np.minimum(first, length[i]) - np.maximum(last, 0.0)
         opposed += float(common[common > 4.0 * touch].sum())
     return crossings, opposed, tested > 2 * MAX_EDGE_PAIRS
@@ -362,14 +370,16 @@ def region_moments(
 
 
 def _swept(points: NDArray, edges: NDArray, about: NDArray, step: float, order: int) -> Array:
-    """Return (k,) bounds of the changes of moments if every coordinate of every point moves by
-    `step`.
+    """Return (k,) bounds of the changes of moments to `order` about `about`, in the order of
+    `multi_indices`, if every coordinate of every point moves by at most `step`.
+
+    The area that an edge sweeps, and the largest |x| and |y| there, as in the module's docstring.
     """
     total = np.zeros(len(multi_indices(2, order)))
     if not step > 0.0:
         return total
     p, q = multi_indices(2, order).T
-    way = step * np.sqrt(2.0)
+    way = step * np.sqrt(2.0)  # the largest distance of a point
     for start in range(0, len(edges), EDGES_PER_BLOCK):
         a, b = (points[edges[start : start + EDGES_PER_BLOCK, i]] - about for i in (0, 1))
         area = way * (np.hypot(*(b - a).T) + 2.0 * way)

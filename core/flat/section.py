@@ -21,9 +21,10 @@ from .section_properties import Plane, Section
 # square of this.
 PLANAR_RTOL = 1e-5
 EDGE_GROWTH = 2.0 * np.sqrt(2.0)  # an edge grows by this if both ends move by 1 along each axis
-MIN_AXIS_SHARE = (
-    0.05  # the least share of an axis that must lie in the plane to name the plane's x axis
-)
+# The least share of a preferred axis that must lie in the plane to become the plane's x axis.
+MIN_AXIS_SHARE = 0.05
+# Relative to a face's length: thinner faces have no side to look to, because of rounding.
+SLIVER_RTOL = 1e-12
 
 
 def project(plane: Plane, points: ArrayLike) -> Array:
@@ -34,7 +35,7 @@ def project(plane: Plane, points: ArrayLike) -> Array:
 
 
 def foot(plane: Plane, point: ArrayLike) -> Array:
-    """Return the (3,) foot of a point of the world on the plane, in the plane's axes."""
+    """Return the (3,) foot of a point of the world on the plane, in the plane's axes: z is 0."""
     return np.append(project(plane, np.asarray(point, np.float64)[None])[0], 0.0)
 
 
@@ -89,9 +90,8 @@ def fit_plane(
         raise MeasureError(NO_SECTION_AREA, fault="the faces have none. Select other faces")
     used = points[np.unique(triangles)]
     size = float(np.sqrt(((used.max(axis=0) - used.min(axis=0)) ** 2).sum()))
-    largest = int(np.argmax(sizes))
-    # Faces that look the other way are of the same plane.
-    side = np.sign(vectors @ vectors[largest])
+    # Faces that look the other way than the largest one are of the same plane.
+    side = np.sign(vectors @ vectors[int(np.argmax(sizes))])
     total = (vectors * side[:, None]).sum(axis=0)
     normal = total / np.sqrt(total @ total)
     agreement = (vectors @ normal).sum() if facing is None else facing @ normal
@@ -100,6 +100,7 @@ def fit_plane(
     heights = (used - used[0]) @ normal
     level = float(heights.min() + heights.max()) / 2.0
     out_of_plane = float(np.ptp(heights)) / 2.0
+    # The errors of the points and of the normal raise a point by some 2 errors; 4 leaves a margin.
     if out_of_plane > PLANAR_RTOL * size + 4.0 * error:
         raise MeasureError(SECTION_NOT_FLAT, share=out_of_plane / size)
     axes, x_axis_name = _axes(normal, prefer)
@@ -108,8 +109,8 @@ def fit_plane(
 
 
 def _axes(normal: NDArray, prefer: NDArray) -> tuple[Array, str]:
-    """Return the `Plane.axes` of a plane, and the name of the preferred axis, a column of `prefer`,
-    that x is along.
+    """Return the `Plane.axes` of a plane, and the name of the preferred axis, the first or second
+    column of `prefer`, whose part in the plane x is along.
     """
     in_plane = [axis - normal * (normal @ axis) for axis in prefer.T]
     choice = int(np.sqrt(in_plane[0] @ in_plane[0]) <= MIN_AXIS_SHARE)
@@ -121,27 +122,34 @@ def _axes(normal: NDArray, prefer: NDArray) -> tuple[Array, str]:
 def region(
     plane: Plane, points: NDArray, triangles: NDArray, faces: NDArray, error: float
 ) -> tuple[Index, int]:
-    """Return (m, 2) edges around the triangles, and the number of faces that look against the plane
-    and are turned. faces: of each triangle.
+    """Return (k, 2) edges around the region of triangles near a plane, and the number of faces that
+    look against the plane, whose triangles are turned.
+
+    points: (n, 3). triangles: (m, 3). faces: (m,) face of each triangle, from 0. error: the largest
+    distance of a point from its intended place, in the unit of the points.
     """
     triangles = first_at_equal_position(points)[triangles]
     a, b, c = project(plane, points)[triangles].swapaxes(0, 1)
     first, second = b - a, c - a
     triangle_areas = (first[:, 0] * second[:, 1] - first[:, 1] * second[:, 0]) / 2.0
     areas = np.bincount(faces, triangle_areas)
+    # The longest side of each face's triangles along an axis of the plane.
     lengths = np.zeros(len(areas))
     np.maximum.at(lengths, faces, np.abs(np.stack([first, second])).max(axis=(0, 2)))
-    # Slivers have no side to look to.
-    flipped = areas < -(4.0 * error + 1e-12 * lengths) * lengths
+    # Corners that move by the error change an area by at most half the perimeter times the error,
+    # some 2 errors times the length of a triangle; 4 leaves a margin. Thinner faces may look to
+    # either side, and are not turned.
+    flipped = areas < -(4.0 * error + SLIVER_RTOL * lengths) * lengths
     triangles = np.where(flipped[faces][:, None], triangles[:, ::-1], triangles)
     _, start, stop = uncancelled_sides(triangles, np.zeros(len(triangles), np.intp))
     return np.stack([start, stop], axis=1), int(np.count_nonzero(flipped))
 
 
 def projection_rounding(plane: Plane, points: NDArray, flat: NDArray) -> float:
-    """Return the largest displacement by rounding of a coordinate of (n, 3) points projected to (n,
-    2) flat ones.
+    """Return a bound of the displacement by rounding of each coordinate of (n, 3) points projected
+    to (n, 2) flat points.
     """
+    # Three products, a difference and sums, and rounded axes: less than 16 roundings.
     return (
         16.0
         * U
@@ -201,7 +209,8 @@ def measure_section(
     length = facet_moments(flat, edges, 0)
     rounding_error = _bounds(raw, about, moments.rounding_error[positions])
     input_error = _bounds(raw, about, moments.input_error[positions])
-    # For at most 2 len(edges) shared pieces, each taken twice.
+    # The perimeter without twice the shared length, which consists of at most 2 len(edges) pieces:
+    # with its own edges, 5 len(edges) lengths, and the rounding of 3 sums.
     ends = EDGE_GROWTH * len(edges) * (5.0 if shared else 1.0)
     length_rounding = float(length.rounding_error[0]) * (3.0 if shared else 1.0)
     rounding_error["perimeter"] = length_rounding + ends * rounded
@@ -233,15 +242,18 @@ def measure_section(
 
 
 def _bounds(raw: NDArray, about: NDArray, delta: NDArray) -> dict[str, float]:
-    """Return error bounds of area, centroid and second moments from (6,) moments about the
-    centroid, off by `delta`.
+    """Return error bounds of area, centroid and second moments from (6,) moments off by `delta`.
+
+    raw: 1, x, y, xx, xy, yy about the point `about`, the centroid up to rounding.
     """
     area = raw[0]
     shift = np.abs(raw[1:3]) / raw[0]
     if not area > 2.0 * delta[0]:  # then nothing bounds a quotient
         return {"area": float(delta[0]), "centroid": float("inf"), "second": float("inf")}
+    # The change of the quotient of first moments and area.
     drift = (delta[1:3] + shift * delta[0]) / (area - delta[0])
     tolerance = 4.0 * U * (np.abs(about) + shift)
+    # The second moments about the point, and what the step to the centroid takes away.
     second = delta[3:].max() + (area + delta[0]) * (drift + shift).max() ** 2
     second += 4.0 * U * np.abs(raw[3:]).max()
     return {

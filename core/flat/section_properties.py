@@ -25,8 +25,9 @@ MAX_NOISE_SHARE = 1e-3  # Relative to the larger principal moment: noise is limi
 class Plane:
     """The plane of a section.
 
-    `axes`: (3, 3) columns x, y and the normal, right-handed. `out_of_plane`: how far the points are
-    off it. `x_axis_name`: the preferred axis that x is nearest to, "X" or "Y".
+    `origin`: (3,) a point of the plane. `axes`: (3, 3) columns x, y and the normal, right-handed.
+    `out_of_plane`: the largest distance of the points from it. `x_axis_name`: the preferred axis
+    that x is nearest to, "X" or "Y".
     """
 
     origin: Vector
@@ -109,7 +110,8 @@ class Section:
         about_x, about_y, product = map(float, self.second)
         if self.axes_undetermined:
             return 0.0
-        if abs(product) <= self._noise:  # then it cannot turn the axis over
+        # Noise may make -π/2 of π/2: a product within noise counts as 0, and the axis as x or y.
+        if abs(product) <= self._noise:
             return 0.0 if about_x >= about_y else pi / 2.0
         return 0.5 * atan2(-2.0 * product, about_x - about_y)
 

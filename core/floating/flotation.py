@@ -49,15 +49,16 @@ from .findings import (
 
 MAX_STEPS = 200
 MAX_ROUNDS = 8  # of filling hollows and settling
-FIRST_LEVELS = 17
-SLAB_RTOL = 1e-6  # of the volume: the cube of a smaller error is lost in rounding
+FIRST_LEVELS = 17  # levels at which the volume is taken if none is known
+# Of the volume: the slab corrects a smaller error to less than rounding.
+SLAB_RTOL = 1e-6
 FULL_RTOL = 1e-12  # a tank without less has no free surface
 AT_REST = 1e-12  # relative to the size: smaller righting arms count as none
-ACCEPTED = 1e-9
+ACCEPTED = 1e-9  # relative to the size: larger righting arms at the end are no rest
 FLAT = 1e-9  # relative to the size: metacentric heights that may be zero
 SHIFT = 1e-6  # of the height: between levels whose surfaces are compared
-SAME_ATTITUDE = 1e-5
-PROBE = 0.03  # rad
+SAME_ATTITUDE = 1e-5  # rad: positions closer than this are one
+PROBE = 0.03  # rad: the turn by which a lower position beside a flat one is looked for
 FIRST_RADIUS = 0.3  # of the trust region, rad
 # The directions from the middle of a cube to its faces, edges and corners, turned: a start in the
 # plane of symmetry between two positions of rest finds one of them only.
@@ -109,7 +110,10 @@ class Vessel:
         return float(part.volume[0]), part.part.center[0]
 
     def surface_at(self, up: Array, guess: float | None = None) -> Waterplane:
-        """Return the liquid's surface across a unit vector; `guess`: a level near it."""
+        """Return the liquid's surface across a unit vector; `guess`: a level near it, along it.
+
+        A full vessel, and a surface of no area, have no second moments.
+        """
         heights = self.points @ up
         low, high = float(heights.min()), float(heights.max())
         if self.volume >= self.whole[0] * (1.0 - FULL_RTOL):
@@ -117,8 +121,9 @@ class Vessel:
         reach = max(abs(low), abs(high))
         if guess is None:
             levels = np.linspace(low, high, FIRST_LEVELS)
-            ups = np.broadcast_to(up, (FIRST_LEVELS, 3))
-            volumes = measure_below(self.points, self.triangles, ups, levels).volume
+            volumes = measure_below(
+                self.points, self.triangles, np.broadcast_to(up, (FIRST_LEVELS, 3)), levels
+            ).volume
             above = min(max(int(np.searchsorted(volumes, self.volume)), 1), FIRST_LEVELS - 1)
             low, high = levels[above - 1], levels[above]
             rise = volumes[above] - volumes[above - 1]
@@ -126,7 +131,8 @@ class Vessel:
             guess = float(low + np.clip(share, 0.0, 1.0) * (high - low))
         level = min(max(guess, low), high)
         last_excess = np.inf
-        # Newton's steps, or halves of the interval where these leave it or do not halve the excess.
+        # Newton's steps, or halves of the interval if these leave it or do not halve the excess: so
+        # the interval ends within rounding.
         while True:
             part = measure_below(self.points, self.triangles, up[None], [level])
             excess = float(part.volume[0]) - self.volume
@@ -143,7 +149,8 @@ class Vessel:
             return Waterplane(
                 level, part.first[0] / self.volume, 0.0, np.zeros(3), np.zeros((3, 3))
             )
-        # The slab of the remaining excess, whose height is the excess over the area, is taken away.
+        # The slab of the remaining excess, as high as the excess over the area, is taken away: its
+        # volume times its middle, which is half of its height below the surface.
         middle = part.face_first[0] / area
         slab = -excess * (middle - excess / (2.0 * area) * up)
         second = part.face.about_point(middle[None]).second()[0]
@@ -162,6 +169,8 @@ class Vessel:
         below = measure_below(self.points, self.triangles, ups, levels, self.displacement)
         part = below.part.at(1)
         errors = np.stack([part.rounding_error, part.input_error], axis=1)
+        # The error of the volume changes the quotient of the center's height, and the level, by the
+        # slab between both.
         height = float(up @ (part.center - part.about))
         reach = 2.0 * abs(height) + abs(plane.level - float(up @ part.about))
         of_level = of_second = np.zeros(2)
@@ -171,8 +180,11 @@ class Vessel:
             face = faces.at(1)
             of_level = errors[0] / plane.area
             growth = float(np.abs(np.diff(faces.second(), axis=0)).sum(axis=(1, 2)).max()) / step
-            of_second = 2.0 * np.array([face.rounding_error[4:].sum(), face.input_error[4:].sum()])
-            of_second = of_second + growth * of_level
+            # Mixed moments are twice in the matrix.
+            of_second = (
+                2.0 * np.array([face.rounding_error[4:].sum(), face.input_error[4:].sum()])
+                + growth * of_level
+            )
         return np.stack([of_level, of_center, of_second])
 
 
@@ -185,6 +197,7 @@ class Tank:
 
     @property
     def mass(self) -> float:
+        """The mass of the liquid."""
         return self.density * self.liquid.volume
 
 
@@ -267,6 +280,7 @@ class FloatingBody:
 
     @cached_property
     def total_mass(self) -> float:
+        """The mass with the liquid in tanks."""
         return self.mass + sum(tank.mass for tank in self.tanks)
 
     @cached_property
@@ -302,10 +316,10 @@ class FloatingBody:
     def at(self, up: ArrayLike, near: Flotation | None = None) -> Flotation:
         """Return the body held at a direction against gravity; `near`: a position not far away."""
         up = unit_vector("up", up)
-
         vessels = [self.hull, *(vessel for vessel, _ in self.liquids)]
         guesses: list[float | None] = [None] * len(vessels)
         if near is not None:
+            # To first order, a surface turns about its middle.
             guesses = [
                 plane.level + float((up - near.up) @ plane.middle)
                 for plane in (near.plane, *near.tank_planes)
@@ -331,8 +345,9 @@ class FloatingBody:
             wet = fitted(None)
         except MeasureError:  # it sinks
             wet = None
-        # The position with flooded hollows while their filling is tried again, and the depth at
-        # which liquid ran in first.
+        # Liquid that runs in floods all hollows (`wet`). In the position of rest with these, some
+        # hollows may keep the liquid out again (`fresh`); if it runs in there, too, the flooded
+        # position stays. `depth`: of the opening through which liquid ran in first.
         flooded = depth = None
         for _ in range(MAX_ROUNDS):
             rest = body._descend(body.at(up), [other for other in known if other.body is body])
@@ -379,7 +394,9 @@ class FloatingBody:
         return sorted(rests, key=lambda rest: rest.energy)
 
     def _descend(self, state: Flotation, known: Sequence[Flotation] = ()) -> Flotation:
-        """Return the minimum of the energy downhill, or the known one that comes near."""
+        """Return the minimum of the energy downhill from a state, or a known stable minimum as soon
+        as the way comes near it.
+        """
         radius = FIRST_RADIUS
         for _ in range(MAX_STEPS):
             arm = float(np.linalg.norm(state.slope))
@@ -398,6 +415,7 @@ class FloatingBody:
             predicted = float(state.slope @ step + step @ state.curvature @ step / 2.0)
             turned = np.cos(angle) * state.up + np.sin(angle) / angle * (state.axes @ step)
             trial = self.at(turned, state)
+            # Of a change that small, rounding leaves too few digits: then the righting arm decides.
             gain = trial.energy - state.energy
             is_fine = abs(predicted) <= 1e-9 * self.size
             closer = float(np.linalg.norm(trial.slope)) < arm
@@ -429,9 +447,10 @@ class FloatingBody:
 
 
 def _trust_step(slope: Array, values: Array, vectors: Array, radius: float) -> Array:
-    """Return the (2,) step that lowers a quadratic form most within a radius.
+    """Return the (2,) step that lowers a quadratic function most within a radius.
 
-    values, vectors: ascending eigenvalues and eigenvectors of its second derivative.
+    slope: (2,) its first derivative. values, vectors: ascending eigenvalues and eigenvectors of its
+    second derivative.
     """
     along = slope @ vectors
     largest = float(np.abs(values).max())
@@ -439,8 +458,9 @@ def _trust_step(slope: Array, values: Array, vectors: Array, radius: float) -> A
         step = -along / values
         if float(np.linalg.norm(step)) <= radius:
             return vectors @ step
-    # |step| falls with the shift. Where the slope has no part along the first axis, the step may
-    # stay short: it goes on along that axis.
+    # The step is -along / (values + shift), shorter the larger the shift. If the slope has no part
+    # along the first axis, the step may stay short for all shifts allowed: it is then lengthened
+    # along that axis.
     low = max(0.0, -float(values[0]))
     high = low + float(np.linalg.norm(slope)) / radius + U * largest
     for _ in range(60):
@@ -557,6 +577,7 @@ class Flotation:
 
     @property
     def center_of_buoyancy(self) -> Array:
+        """The (3,) center of the displaced liquid."""
         return self.plane.center + self.body.center
 
     @property
@@ -582,6 +603,7 @@ class Flotation:
         for (tank, share), plane in zip(self.body.liquids, self.tank_planes):
             _, height, own_second = tank.errors_at(self.up, plane)
             gravity = gravity + share * height
+            # The factor is the ratio of both liquids' densities, as in `stiffness`.
             second = second + own_second * share * self.displacement / tank.volume
         reach = float(np.abs(self.body.points).max())
         keel = np.array([8.0 * U * reach, float(np.linalg.norm(self.body.displacement))])
@@ -600,12 +622,14 @@ class Flotation:
         return self.level - float((self.body.openings @ self.up).min(initial=np.inf))
 
     def with_flooded_hollow(self, depth: float | None) -> Flotation:
-        """Return it with a finding if the liquid has run in by a depth, or fills a hollow that is
-        open downward and would carry the body alone.
+        """Return the position with a finding if the liquid has run in by a depth, or, with None,
+        fills a hollow that is open downward and would carry the body alone.
         """
         if depth is None and self.body.fitted is not None:
             with suppress(MeasureError):
-                lidded = self.body.fitted(-self.up)
+                lidded = self.body.fitted(
+                    -self.up
+                )  # with the hollows filled that are open downward
                 if lidded.capacity - self.body.capacity > self.displacement:
                     depth = replace(self, body=lidded).depth_of_openings
         if depth is None:
@@ -634,8 +658,9 @@ def turn_between(start: Array, stop: Array) -> Array:
     """Return the smallest (3, 3) rotation from one unit vector to another."""
     across = np.cross(start, stop)
     cosine = float(start @ stop)
-    if cosine < -1.0 + 1e-12:
+    if cosine < -1.0 + 1e-12:  # half a turn about any axis across
         first = np.array(frame_about(start.tolist()))[0]
         return 2.0 * np.outer(first, first) - np.eye(3)
+    # Rodrigues' formula; (1 - cosine) / |across|² is 1 / (1 + cosine).
     skew = np.cross(np.eye(3), across)
     return np.eye(3) + skew + skew @ skew / (1.0 + cosine)

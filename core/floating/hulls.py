@@ -66,7 +66,7 @@ def outer_surface(body: Body) -> Iterator[tuple[SolidIntegrals, Array]]:
 def find_hull(bodies: Iterable[Body]) -> Hull:
     """Return the outer side of bodies with their holes closed, or raise MeasureError."""
     points, triangles, caps, part, rims = [], [], [], [], []
-    start = number = 0
+    start = number = 0  # of the points, and of the parts, before this solid
     displacement = np.zeros(3)
     for body in bodies:
         for solid, matrices in outer_surface(body):
@@ -79,14 +79,16 @@ def find_hull(bodies: Iterable[Body]) -> Hull:
             rim = mesh.points[np.unique(mesh.capped_edges)].astype(np.float64)
             for matrix in matrices:
                 linear = matrix[:3, :3].T
+                # A mirror image has its corners in the opposite order.
                 step = 1 if np.linalg.det(linear) > 0.0 else -1
                 points.append(closed.points.astype(np.float64) @ linear + matrix[:3, 3])
                 triangles.append(closed.triangles[:, ::step] + start)
                 caps.append(closed.face < 0)
                 part.append(closed.part + number)
                 rims.append(rim @ linear + matrix[:3, 3])
-                moved = solid.given_surface.coordinate_error @ np.abs(linear)
-                displacement = np.maximum(displacement, moved)
+                displacement = np.maximum(
+                    displacement, solid.given_surface.coordinate_error @ np.abs(linear)
+                )
                 start += len(closed.points)
                 number += closed.number
     if not points:
@@ -104,12 +106,15 @@ def _outer_parts(
 ) -> Mask:
     """Return a (number,) mask of the parts that no other one contains; MeasureError if parts
     overlap.
+
+    part, is_cap: (m,) of the triangles: their part, and whether they close a hole.
     """
     is_solid, relations, tolerance = _relate(points, triangles, part, number)
     kept = is_solid.copy()
     kept[relations.contained_in[:, 0]] = False
     if len(relations.intersecting):
-        # What goes through a cap alone, as a mast or a crew, is inside of an open hull.
+        # Of parts that go through each other, one may be in the other's opening and meet only its
+        # cap, as a mast or a crew in an open hull. Such a part displaces nothing more.
         skins = sort_components(points, triangles[~is_cap], part[~is_cap], number)
         tree = Bvh(points, skins, kept)
         small, large = relations.intersecting.T
@@ -129,8 +134,8 @@ def _relate(
     tolerance.
     """
     size = float(np.linalg.norm(np.ptp(points, axis=0)))
-    reach = np.float32(np.abs(points).max())
-    tolerance = welding_tolerance(size, float(np.spacing(reach)))
+    step = float(np.spacing(np.float32(np.abs(points).max())))
+    tolerance = welding_tolerance(size, step)
     parts = sort_components(points, triangles, part, number)
     is_solid = parts.volume > 0.0
     return is_solid, classify_pairs(points, parts, is_solid, tolerance), tolerance
@@ -143,16 +148,17 @@ def are_inside(hull: Hull, spaces: Sequence[Hull], tanks: Sequence[Hull]) -> Mas
     every = [hull, *spaces, *tanks]
     points = np.concatenate([each.points for each in every])
     corners = np.cumsum([0, *[len(each.points) for each in every]])
-    first = np.cumsum([0, *[int(each.part.max()) + 1 for each in every]])
-    triangles = np.concatenate([each.triangles + at for each, at in zip(every, corners)])
-    part = np.concatenate([each.part + at for each, at in zip(every, first)])
-    is_solid, relations, _ = _relate(points, triangles, part, int(first[-1]))
-    owner = np.repeat(np.arange(len(every)), np.diff(first))
+    first_parts = np.cumsum([0, *[int(each.part.max()) + 1 for each in every]])
+    triangles = np.concatenate([each.triangles + first for each, first in zip(every, corners)])
+    part = np.concatenate([each.part + first for each, first in zip(every, first_parts)])
+    is_solid, relations, _ = _relate(points, triangles, part, int(first_parts[-1]))
+    # The index in `every` of each part: 0 for the hull, then the spaces, then the tanks.
+    owner = np.repeat(np.arange(len(every)), np.diff(first_parts))
     is_flooded = (owner > 0) & (owner <= len(spaces))
     inner, outer = relations.contained_in.T
     in_hull = owner[outer] == 0
-    twice = (is_flooded[inner] | is_flooded[outer]) & ~in_hull
-    if is_flooded[relations.intersecting].any() or twice.any():
+    is_shared = (is_flooded[inner] | is_flooded[outer]) & ~in_hull
+    if is_flooded[relations.intersecting].any() or is_shared.any():
         raise MeasureError(FLOAT_UNAVAILABLE, fault=FLOODED_OUTSIDE)
     is_outside = is_flooded & is_solid
     is_outside[inner[in_hull]] = False
@@ -175,11 +181,13 @@ def fill_hollows(hull: Hull, up: Array) -> Hull:
         _, start, stop = uncancelled_sides(
             hollow.triangles, np.zeros(len(hollow.triangles), np.intp)
         )
+        # The lid is a fan from the rim, turned round, to its middle: the point after the hollow's.
         rim = hollow.points[start]
         count = len(hollow.points)
         lid = np.stack([stop, start, np.full(len(start), count)], axis=1)
         added = np.concatenate([hollow.triangles, lid]) + len(points)
-        # Parts in the filled hollow displace nothing more.
+        # The filling becomes a part, in contact with the parts whose walls it has. Other parts that
+        # are in the filled hollow displace nothing more.
         is_wall = np.isin(part, part[_same_triangles(points, triangles, hollow)])
         points = np.concatenate([points, hollow.points, rim.mean(axis=0)[None]])
         number = int(part.max()) + 1
@@ -188,6 +196,7 @@ def fill_hollows(hull: Hull, up: Array) -> Hull:
                 points,
                 np.concatenate([triangles[~is_wall], added]),
                 np.concatenate([part[~is_wall], np.full(len(added), number)]),
+                # a mask of the lid, the last of the triangles
                 np.arange(-np.count_nonzero(~is_wall), len(added)) >= len(hollow.triangles),
                 number + 1,
             )
@@ -204,7 +213,9 @@ def fill_hollows(hull: Hull, up: Array) -> Hull:
 
 
 def _same_triangles(points: Array, triangles: Integers, hollow: Hollow) -> Mask:
-    """Return an (m,) mask of the triangles at the places of a hollow's walls."""
+    """Return an (m,) mask of the triangles at the places of a hollow's walls, which face either
+    way.
+    """
     place = first_at_equal_position(np.concatenate([hollow.points, points]))
     every = np.concatenate([hollow.triangles, triangles + len(hollow.points)])
     first = first_occurrence(*np.sort(place[every], axis=1).T)

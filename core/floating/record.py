@@ -19,7 +19,7 @@ from .hulls import Hull, are_inside, fill_hollows, find_hull
 from .righting import righting_curve
 
 CURVE = "angles", "arms", "trims", "energies", "stable_range", "capsize", "flooding"
-MAX_HULLS = 4  # kept: the wet one, and the last with hollows filled
+MAX_HULLS = 4  # hulls with filled hollows that are kept beside the wet one, the last ones
 
 
 def settle(
@@ -86,7 +86,8 @@ def settle(
 class _FittedBodies:
     """The floating bodies of a wet hull with its hollows filled in several ways.
 
-    made: the last bodies with their hulls, that of the wet hull first.
+    made: the last bodies with their hulls, that of the wet hull first. `settle` relies on equal
+    bodies being the same object.
     """
 
     wet: Hull
@@ -126,13 +127,17 @@ class _FittedBodies:
             center_error=self.center_error,
         )
         if len(self.made) > MAX_HULLS:
-            del self.made[int(self.made[0][0] is self.wet)]
+            # The oldest one, but for that of the wet hull.
+            first_hull, _ = self.made[0]
+            del self.made[int(first_hull is self.wet)]
         self.made.insert(0 if hull is self.wet else len(self.made), (hull, body))
         return body
 
 
 def _holds(hull: Hull, space: Hull, through: bool) -> bool:
-    """Return whether a flooded space lies in a hull; `through` if it goes through a lid of it."""
+    """Return whether a flooded space lies in a hull; `through` if it goes through the surface, as
+    through a lid.
+    """
     try:
         return bool(are_inside(hull, [space], ())[0])
     except MeasureError:
@@ -164,7 +169,7 @@ def float_record(
     if frame == "world":
         axes, origin = np.eye(3), np.zeros(3)
 
-    def height(point: Array) -> float:
+    def height(point: Array) -> float:  # over the keel
         return float(rest.up @ point) - rest.keel
 
     heel, trim = heel_and_trim(rest.up, measurement.rotation)

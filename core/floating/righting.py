@@ -27,7 +27,7 @@ MAX_STEPS = 30
 MAX_TRIM_STEP = 0.2  # rad
 LEVEL_TRIM = 1e-12  # relative to the size: smaller trimming arms count as none
 ROUNDS = 40  # of the search for an angle
-ANGLE_ATOL = 1e-9
+ANGLE_ATOL = 1e-9  # rad: closer angles are one
 SEARCH_STEP = np.radians(2.5)
 FIRST_HEEL = 1e-3  # rad; the arm at rest is zero, so that its sign is that beside it
 _Position: TypeAlias = tuple[float, Flotation]  # a trim, rad, and the state there
@@ -122,6 +122,7 @@ def righting_curve(
     arms = np.where(np.abs(arms) <= LEVEL_TRIM * rest.body.size, 0.0, arms)
     dry_heights = np.array([-state.depth_of_openings for _, state in positions])
 
+    # The height of the lowest opening over the waterline.
     def dry_height_at(angle: float, near: _Position) -> float:
         return -heeling.position(angle, near)[1].depth_of_openings
 
@@ -131,6 +132,7 @@ def righting_curve(
         side = np.flatnonzero(sign * angles >= 0.0)[:: int(sign)]
         heeled_side = side[np.abs(angles[side]) > ANGLE_ATOL]
         righting = sign * arms
+        # The arm at rest is 0: the first angle beside it tells whether the body comes back at all.
         if len(heeled_side) and righting[heeled_side[0]] <= 0.0:
             capsize.append(0.0)
         else:
@@ -167,13 +169,14 @@ class _Heeling:
         by Newton's method, kept within the trims that are known to be too small and too large.
         """
         trim, state = near
-        side = np.array([0.0, np.sin(angle), np.cos(angle)])
+        side = np.array([0.0, np.sin(angle), np.cos(angle)])  # u of the module at trim 0
         low, high = -np.inf, np.inf
         for _ in range(MAX_STEPS):
             up = (np.array([-np.sin(trim), 0.0, 0.0]) + np.cos(trim) * side) @ self._frame
             state = state.body.at(up, state)
             if not self._free_trim:
                 break
+            # the derivative of u by the trim
             along = (np.array([-np.cos(trim), 0.0, 0.0]) - np.sin(trim) * side) @ self._frame
             slope = float(state.arm @ along)
             if abs(slope) <= LEVEL_TRIM * state.body.size:
@@ -211,7 +214,8 @@ def _first_change(
         low, high, first, last = angles[i], angles[j], values[i], values[j]
         middle = high
         for _ in range(ROUNDS):
-            # The Illinois method: regula falsi that halves a value kept twice.
+            # The Illinois method: regula falsi that halves the value at an end that is kept. If the
+            # value at one end is infinite, that end is taken.
             middle = low + (high - low) * first / (first - last) if np.isfinite(last) else high
             value = value_at(float(middle), positions[i])
             if value > 0.0:

@@ -76,8 +76,8 @@ def axial_harmonics(
     area: bool,
     order: int = MAX_AXIAL_ORDER,
 ) -> AxialHarmonics:
-    """Find harmonics, to m = order, about the axis frame[:, 2] of the body in surfaces, or of these
-    if `area`.
+    """Find harmonics, to m = order, about the axis frame[:, 2] through the center: of the body in
+    closed surfaces, or if `area` of the surfaces.
     """
     pieces = [
         ((piece.points.astype(np.float64) - center) @ frame, piece.all_triangles()[0])
@@ -95,6 +95,7 @@ def axial_harmonics(
             normal = np.array(cross(corners[1] - corners[0], corners[2] - corners[0]))
             weight = np.sqrt(dot(normal, normal)) if area else dot(corners[0], normal)
             total += float(weight.sum())
+            # Weights are multiples of the areas, or of the volumes of the cones from the center.
             sums += _means(corners / scale[:, None], order) @ weight
     if not area:
         # The mean of a function of degree n over the cone on a triangle is 3 / (n + 3) times that
@@ -105,18 +106,18 @@ def axial_harmonics(
 
 
 def _means(corners: Array, order: int) -> NDArray[np.complex128]:
-    """Return the (2, order + 1, k) means of w^m and w^m z over triangles with corners (3, 3, k): x,
-    y, z of each.
+    """Return the (2, order + 1, k) means of w^m and w^m z, w = x + iy, over k triangles with
+    corners (3, 3, k): corner, axis, triangle.
     """
     w = corners[:, 0] + 1j * corners[:, 1]
     z = corners[:, 2]
-    # h_m of the first corner, of two and of three, and their derivatives by ε.
+    # h_m of the first corner, of two and of three, and their derivatives by ε at 0; here m = 0.
     power = [np.ones(w.shape[1], np.complex128)] * 3
     slope = [np.zeros(w.shape[1], np.complex128)] * 3
     means = np.empty((2, order + 1, w.shape[1]), np.complex128)
     means[0, 0] = 1.0
     for m in range(1, order + 2):
-        fewer_power = fewer_slope = 0.0  # those of one corner less
+        fewer_power = fewer_slope = 0.0  # h_m and its derivative of one corner less
         for i in range(3):  # h_m(.., w_i) = h_m(..) + w_i h_{m-1}(.., w_i)
             fewer_slope = fewer_slope + z[i] * power[i] + w[i] * slope[i]
             fewer_power = fewer_power + w[i] * power[i]
@@ -137,17 +138,19 @@ def axis_last(alike: EquivalentFrames) -> Array:
 def turn_by_harmonics(
     alike: EquivalentFrames, harmonics: AxialHarmonics, noise: float = NOISE_LEVEL
 ) -> EquivalentFrames:
-    """Return frames turned about one axis so that the first clear harmonic is positive; `alike`
-    without one.
+    """Return frames turned about one axis so that the first clear harmonic is positive; `alike` if
+    no harmonic is clear, or the axis is too uncertain.
+
+    alike: frames of a body with one axis of revolution. harmonics: about that axis.
     """
     (axis,) = alike.revolution_axes
     if alike.tilt > MAX_TILT:
         return alike
-    order = np.roll([0, 1, 2], 2 - axis)
+    order = np.roll([0, 1, 2], 2 - axis)  # the axis last, as in the frames of harmonics
     bases = [harmonics.in_frame(frame[:, order]) for frame in alike.frames]
     if len(alike.noise):
         noise = max(noise, float(alike.noise.min()))
-    # Second moments of such a body have no harmonic.
+    # Degrees m + k above 2: such a body's moments to second order have no harmonic.
     m, k = np.meshgrid(np.arange(harmonics.order + 1), [0, 1])
     clear = np.argwhere((np.abs(harmonics.values) > 2.0 * noise) & (m > 0) & (m + k > 2))
     if not len(clear):
@@ -164,7 +167,7 @@ def turn_by_harmonics(
             turned = base.in_frame(base.frame @ turn)
             frames.append(turned.frame[:, np.argsort(order)])
             values.append(np.concatenate([turned.values.real.ravel(), turned.values.imag.ravel()]))
-    least = np.full(len(values[0]), 2.0 * noise)
+    least = np.full(len(values[0]), 2.0 * noise)  # the noise of a difference of two values
     frames, known = lexicographic_maximum(np.array(frames), np.array(values), least)
     tilt = noise / (float(m) * float(np.abs(harmonics.values[k, m])))
     return EquivalentFrames(

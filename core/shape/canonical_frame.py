@@ -99,10 +99,12 @@ def _candidates(
         points_along = starts[:, :, axis] @ spread.axes[:, axis] > 0.0
         bases = starts[np.unique(points_along, return_index=True)[1]]
         return _fix_rotation_about_axis(central, spread, bases, axis, spread.tilt)
+    # All second moments are equal: the first degree whose moments differ clearly, else at all.
     for clear, degree in product((CLEAR_HARMONIC, 0.0), range(3, central.order + 1)):
         directions, sign, tilt = _extreme_directions(central, spread, degree, clear)
         if len(directions):
             bases = np.array([frame_about(direction) for direction in directions.tolist()])
+            # About an axis of a cube, the fourth harmonic has this sign in the cube's own axes.
             quarter_sign = sign if degree == 4 else -1.0
             return _fix_rotation_about_axis(
                 central, spread, bases.transpose(0, 2, 1), 2, tilt, quarter_sign
@@ -118,8 +120,8 @@ def _fix_rotation_about_axis(
     tilt: float,
     quarter_sign: float = -1.0,
 ) -> tuple[NDArray, tuple[int, ...], float]:
-    """Turn bases about an axis so that the first clear harmonic is real, with the sign
-    `quarter_sign` if it repeats at quarter turns.
+    """Turn (n, 3, 3) bases about an axis so that the first clear harmonic is real, with the sign
+    `quarter_sign` if it repeats at quarter turns, else positive.
 
     tilt: the uncertainty of the axis, rad. Return candidate frames, and `revolution_axes` and
     `tilt` as in `EquivalentFrames`.
@@ -127,10 +129,9 @@ def _fix_rotation_about_axis(
     harmonic = _clear_harmonic(central, spread, bases, axis)
     if harmonic is None:
         return bases, (axis,), tilt
-    m, c, least = harmonic
-    if m == 4:
-        c = quarter_sign * c
-    angles = (np.angle(c)[:, None] + 2.0 * np.pi * np.arange(m)) / m
+    m, values, least = harmonic
+    signed = quarter_sign * values if m == 4 else values
+    angles = (np.angle(signed)[:, None] + 2.0 * np.pi * np.arange(m)) / m
     cos = np.cos(angles)[..., None]
     sin = np.sin(angles)[..., None]
     first = (axis + 1) % 3
@@ -140,18 +141,18 @@ def _fix_rotation_about_axis(
     frames = np.repeat(bases[:, None], m, axis=1)
     frames[..., first] = cos * a + sin * b
     frames[..., second] = cos * b - sin * a
-    # Among several directions keep the ones with the same harmonic.
+    # Among several directions keep those with the largest harmonic. `least` is for NOISE_LEVEL.
     noise = spread.noise / NOISE_LEVEL * least
-    largest = np.abs(c).max()
-    is_alike = np.abs(c) > largest - min(2.0 * noise, MAX_EQUAL_SHARE * largest)
+    largest = np.abs(values).max()
+    is_alike = np.abs(values) > largest - min(2.0 * noise, MAX_EQUAL_SHARE * largest)
     return frames[is_alike].reshape(-1, 3, 3), (), tilt + noise / (m * largest)
 
 
 def _clear_harmonic(
     central: Moments, spread: SecondMomentAxes, bases: NDArray, axis: int
 ) -> tuple[int, NDArray[np.complex128], float] | None:
-    """Return m, (n,) values in n bases, and the noise of the first clear harmonic about an axis,
-    else of the first one above the noise, else None.
+    """Return m, the (n,) values in n bases, and the noise of values at NOISE_LEVEL, of the first
+    clear harmonic about an axis, else of the first above the noise; None if there is none.
     """
     first = (axis + 1) % 3
     order = [first, (axis + 2) % 3, axis]
@@ -166,24 +167,24 @@ def _clear_harmonic(
         ]
         for m, k in exponents:
             unit = size[first] ** (degree - k) * size[axis] ** k
-            c = _harmonic(tensor, degree, m, k) / unit
+            values = _harmonic(tensor, degree, m, k) / unit
             powers = [0, 0, 0]
             powers[first] = degree - k
             powers[axis] = k
             place = monomial_index(*powers) - monomial_index(degree, 0, 0)
             # A harmonic is a sum of moments with weights that add up to 2^(degree - k).
             least = 2.0 ** (degree - k) * noise[place]
-            largest = np.abs(c).max()
+            largest = np.abs(values).max()
             if largest > max(least, CLEAR_HARMONIC):
-                return m, c, least
+                return m, values, least
             if weaker is None and largest > least:
-                weaker = m, c, least
+                weaker = m, values, least
     return weaker
 
 
 def _harmonic(tensor: NDArray, degree: int, m: int, k: int) -> NDArray[np.complex128]:
-    """Return (n,) E[(x+iy)^m (x²+y²)^j z^k] of n bodies' (n, 3, ..., 3) moments of this degree, k =
-    degree - m - 2j.
+    """Return the (n,) means of (x+iy)^m (x²+y²)^j z^k, m + 2j + k = degree, from (n, 3, ..., 3)
+    moments of this degree in n frames.
     """
     j = (degree - m - k) // 2
     forms = (
@@ -211,6 +212,7 @@ def _extreme_directions(
     usual_noise = _normalization(central, replace(spread, noise=NOISE_LEVEL), degree)[1].max()
     least = max(2.0 * usual_noise, clear)
     sphere = spread_directions(START_DIRECTIONS)
+    # Samples span less than the extremes; those are compared with `least` again below.
     span = np.ptp(_contract(tensor, degree, sphere))
     if span <= least / 2.0:
         return np.empty((0, 3)), 1.0, 0.0
@@ -225,8 +227,8 @@ def _extreme_directions(
         extremes.append((distinct_arrays(top, DISTINCT_DIRECTIONS), sign))
     directions, sign = min(extremes, key=lambda pair: len(pair[0]))
     tilt = noise / span
-    # If extreme directions form a circle, the moment is the same all around the circle: no slope
-    # leads along it.
+    # If extreme directions form a circle, the moment is the same all around its pole: u × gradient,
+    # the axis about which the moment grows, is across the pole for all u.
     slope = np.cross(sphere, _contract(tensor, degree - 1, sphere))
     pole = np.linalg.eigh(slope.T @ slope)[1][:, 0]
     is_round = np.abs(slope @ pole).max() <= within
@@ -236,8 +238,10 @@ def _extreme_directions(
 
 
 def _maximize_on_sphere(tensor: NDArray, degree: int, span: float, within: float) -> Array:
-    """Return maxima on the sphere, some repeated, the best approached first, at most `within` below
-    the largest.
+    """Return (k, 3) maxima of a tensor's form on the sphere, some repeated, the most precise first;
+    all of those at most `within` below the largest are among them.
+
+    span: of the form's values on the sphere.
 
     The search starts from the highest points of a grid over the sphere: along the sphere the
     function is a trigonometric polynomial of this span, so that by Bernstein's inequality it loses
@@ -267,6 +271,7 @@ def _maximize_on_sphere(tensor: NDArray, degree: int, span: float, within: float
         points /= np.linalg.norm(points, axis=1)[:, None]
         if np.abs(move).max() < ARRIVED:
             break
+    # Points that have arrived, by the gradient before their last step.
     steep = np.linalg.norm(uphill, axis=1)
     order = np.argsort(steep, kind="stable")
     return points[order[steep[order] <= max(1e-4 * scale, steep.min())]]
@@ -289,13 +294,13 @@ def _normalized_moments(
 def _normalization(
     central: Moments, spread: SecondMomentAxes, degree: int
 ) -> tuple[NDArray, NDArray]:
-    """Return the scales of a degree's monomials, products of extents, and the noise of their
-    normalized moments.
+    """Return the (n,) scales of a degree's monomials, products of extents, and the (n,) noise of
+    their moments over these: by the points' noise and the frame's tilt, and by rounding.
     """
     powers = monomials(degree)[monomial_index(degree, 0, 0) :]
     size = extents_of(spread.size)
     unit = np.prod(size**powers, axis=1)
-    thin = np.min(np.where(powers > 0, size, np.inf), axis=1)
+    thin = np.min(np.where(powers > 0, size, np.inf), axis=1)  # the least extent in a monomial
     error = np.abs(
         _rotate_tensor(central.rounding_error[tensor_index(degree)], np.abs(spread.axes)[None])
     )
@@ -336,9 +341,8 @@ def _contract(tensor: NDArray, times: int, points: NDArray) -> Array:
 
 def _rotate_tensor(tensor: NDArray, frames: NDArray) -> Array:
     """Return the (k, 3, ..., 3) entries of a symmetric tensor along the axes of k frames."""
-    degree = tensor.ndim
     out = np.broadcast_to(tensor, (len(frames), *tensor.shape))
-    for _ in range(degree):
+    for _ in range(tensor.ndim):
         out = np.einsum("kai,ka...->k...i", frames, out)
     return out
 

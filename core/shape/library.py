@@ -43,7 +43,7 @@ UNDECIDED_HANDEDNESS = (Similarity.COPY_OR_MIRROR, Similarity.SCALED_COPY_OR_MIR
 
 @dataclass(frozen=True, eq=False)
 class Entry:
-    """A body of a library: its name and the name of its file, "" if there is none."""
+    """A body of a library: its name, its file's name or "", and its signature."""
 
     name: str
     file: str

@@ -18,20 +18,20 @@ from functools import cached_property
 import numpy as np
 
 from ..mesh import Bvh, keep_used, tree_of_all
-from ..numerics import Array, Index, Mask, NDArray, cross_rows, lengths, rotation_about
+from ..numerics import Array, Index, Mask, NDArray, cross_rows, lengths, rotation_about, run_starts
 from .symmetries import Symmetry
 
 MAX_CORNERS = 4096  # farthest corners that are compared with each other
 MAX_CANDIDATES = 1 << 17
 PAIRS_PER_BLOCK = 1 << 22  # pairs of corners compared at once
-# corners are sorted along this direction, across no usual edge
+# Corners are sorted along this unit vector, chosen across no usual edge.
 SKEW = np.array([0.5377, 0.6213, 0.5699])
-MAX_TRIES = 64  # corners of nearly equal height along it that are compared
+MAX_TRIES = 64  # corners of nearly equal height along SKEW that are compared
 FIRST_IMAGES = 12  # images of so many corners refute most candidates
-FIRST_SAMPLES = 64  # so many corners refute most of the other candidates
+FIRST_SAMPLES = 64  # witnesses: so many corners refute most of the other candidates
 SAMPLES = 128  # corners, farthest corners and triangles that are compared if the tolerance is large
 MAX_BETWEEN = 2048  # triangles between other corners that are compared; of more, evenly many
-# Weights of a triangle's corners that give points between them.
+# Weights of a triangle's corners for points between them; the first two are on its first side.
 BETWEEN = np.array([[0.5, 0.5, 0.0], [0.7, 0.3, 0.0], [0.3, 0.3, 0.4]])
 CLEAR_PRODUCT = 2e-3  # 3 - trace: a product of operations is the operation nearest to it
 
@@ -57,7 +57,7 @@ class PlacedTriangles:
 
     @cached_property
     def _first(self) -> Index:
-        """(n,) indices of the first corner at the place of each corner."""
+        """(n,) indices of the first corner, along SKEW, at the place of each corner."""
         return self._match(self.points)
 
     @cached_property
@@ -111,9 +111,10 @@ class PlacedTriangles:
                 if larger is not None:
                     in_group = larger
                     generators.append(i)
-            elif misfits[i] == np.inf:  # Then its products with the group do not hold either.
-                own = operations[in_group]
-                products = (own[:, None] @ operations[i] @ own).reshape(-1, 3, 3)
+            elif misfits[i] == np.inf:
+                # A product with the group does not hold either, or this operation would.
+                members = operations[in_group]
+                products = (members[:, None] @ operations[i] @ members).reshape(-1, 3, 3)
                 refuted = _nearest(products, operations)
                 misfits[refuted[refuted >= 0]] = np.inf
         groups = [in_group]
@@ -132,17 +133,18 @@ class PlacedTriangles:
         height = self.points @ axis
         radius = lengths(self.points - np.outer(height, axis))[:, 0]
         outer = radius.argmax()
+        # Two corners of one ring may be off by `far` each.
         is_ring = (radius >= radius[outer] - 2.0 * self.far) & (
             np.abs(height - height[outer]) <= 2.0 * self.far
         )
         count = len(self._distinct(np.flatnonzero(is_ring)))
         return count if self._misfit(rotation_about(axis, 2.0 * np.pi / count)) <= self.near else 1
 
-    def is_round(self, found: Symmetry, tolerance: float) -> bool:
+    def is_round(self, symmetry: Symmetry, tolerance: float) -> bool:
         """Return whether turns about the axes of revolution hold within the tolerance."""
         turns = [
             rotation_about(axis, angle)
-            for axis in found.revolution_axes
+            for axis in symmetry.revolution_axes
             for angle in (1.0, 0.1, 0.01)
         ]
         return all(self.holds(turn, tolerance) for turn in turns)
@@ -152,6 +154,7 @@ class PlacedTriangles:
         None if too many.
         """
         radius = lengths(self.points)[:, 0]
+        # A corner and its image may be off by `far` each.
         outer = self._distinct(np.flatnonzero(radius >= radius.max() - 2.0 * self.far))
         if len(outer) > MAX_CORNERS:
             return None
@@ -160,7 +163,8 @@ class PlacedTriangles:
         # possible from the line through the first, to one at the same distances.
         partners = outer
         from_line = lengths(partners - np.outer(partners @ first, first))[:, 0]
-        if from_line.max() <= 0.1 * radius.max():  # All outer corners are on one line.
+        if from_line.max() <= 0.1 * radius.max():
+            # All outer corners are near one line, and would not fix a turn about it.
             partners = self.points
             from_line = lengths(partners - np.outer(partners @ first, first))[:, 0]
         second = partners[from_line.argmax()]
@@ -173,27 +177,30 @@ class PlacedTriangles:
         for begin in range(0, len(outer), step):
             directions = outer[begin : begin + step] / lengths(outer[begin : begin + step])
             height = directions @ partners.T
-            apart = np.sqrt(np.maximum(squares - height**2, 0.0))
+            from_directions = np.sqrt(np.maximum(squares - height**2, 0.0))
+            # Both pairs have two corners, and each of these may be off by `far`.
             direction, partner = np.nonzero(
                 (np.abs(height - along) <= 4.0 * self.far)
-                & (np.abs(apart - across) <= 4.0 * self.far)
+                & (np.abs(from_directions - across) <= 4.0 * self.far)
             )
             frames = _frames(directions[direction], partners[partner])
             images += [frames @ start.T, frames * [1.0, 1.0, -1.0] @ start.T]
             if sum(map(len, images)) > MAX_CANDIDATES:
                 return None
         operations = np.concatenate(images)
+        # The largest distance of a few corners' images; without operations that take one too far.
         worst = np.zeros(len(operations))
         for i in self._witnesses[:: max(1, len(self._witnesses) // FIRST_IMAGES)]:
             worst = np.maximum(worst, self._distances(operations @ self.points[i], self.far))
             operations = operations[np.isfinite(worst)]
             worst = worst[np.isfinite(worst)]
         worst[0] = -1.0  # the identity, which is kept
-        is_proper = np.linalg.det(operations) > 0.0
-        order = np.lexsort([-operations.trace(axis1=1, axis2=2), ~is_proper])
+        # Rotations come first, and the smallest angles, by the largest traces.
+        order = np.lexsort([-operations.trace(axis1=1, axis2=2), np.linalg.det(operations) <= 0.0])
         operations = operations[order]
         worst = worst[order]
-        # Of operations that are equal up to noise, the one that fits best.
+        # Of operations that are equal up to noise (the trace of AᵀB is near 3), the one that fits
+        # best.
         best = []
         remaining = np.arange(len(order))
         while len(remaining):
@@ -209,35 +216,45 @@ class PlacedTriangles:
         return self.points[np.unique(self._first[rows])]
 
     def _misfit(self, operation: NDArray) -> float:
-        """Return the largest distance of images from the surface; infinity if one is far from
-        it.
+        """Return the largest distance of images of corners, and of points between them, from the
+        surface; infinity if one is farther than `far`.
+
+        A corner that refutes the operation becomes a witness: later calls compare it first.
         """
-        for rows in (self._witnesses, None):
-            images = (self.points if rows is None else self.points[rows]) @ operation.T
-            match = self._match(images)
-            unmatched = np.flatnonzero(match < 0)
-            distances = self._distances(images[unmatched], self.far)
-            if not np.isfinite(distances).all():
-                worst = unmatched[np.argmax(distances)]
-                self._witnesses = np.append(
-                    self._witnesses[-FIRST_SAMPLES:], worst if rows is None else rows[worst]
-                )
-                return np.inf
-        level = float(distances.max(initial=0.0))
-        if level > self.near:
+        witness_images = self.points[self._witnesses] @ operation.T
+        match = self._match(witness_images)
+        if self._farthest(self._witnesses, witness_images, match) == np.inf:
+            return np.inf
+        images = self.points @ operation.T
+        match = self._match(images)
+        level = self._farthest(np.arange(len(images)), images, match)
+        if level > self.near:  # or infinite
             return level
-        # If all corners fall on corners and all creases on creases, so do the triangles. Of the
-        # others, points between the corners are compared.
+        # If all corners fall on corners and all creases on creases, so do the triangles. Of other
+        # creases and triangles, the images of points between the corners are compared.
         creases, codes = self._creases
         image_codes = self._edge_codes(np.where(match < 0, -1, self._first[match])[creases[:, :2]])
         is_crease = codes.take(np.searchsorted(codes, image_codes), mode="clip") == image_codes
         has_other_corner = (match[self.triangles] < 0).any(axis=1)
-        new = np.concatenate([creases[~is_crease], self.triangles[has_other_corner]])
-        between = (BETWEEN @ images[new[:: 1 + len(new) // MAX_BETWEEN]]).reshape(-1, 3)
+        compared = np.concatenate([creases[~is_crease], self.triangles[has_other_corner]])
+        between = (BETWEEN @ images[compared[:: 1 + len(compared) // MAX_BETWEEN]]).reshape(-1, 3)
         return max(level, float(self._distances(between, self.far).max(initial=0.0)))
 
+    def _farthest(self, corners: Index, images: NDArray, match: Index) -> float:
+        """Return the largest distance of (k, 3) images of corners from the surface, 0 if they match
+        corners; infinity if one is farther than `far`, whose corner becomes a witness.
+        """
+        unmatched = np.flatnonzero(match < 0)
+        distances = self._distances(images[unmatched], self.far)
+        if not np.isfinite(distances).all():
+            witness = corners[unmatched[np.argmax(distances)]]
+            self._witnesses = np.append(self._witnesses[-FIRST_SAMPLES:], witness)
+        return float(distances.max(initial=0.0))
+
     def _match(self, images: NDArray) -> Index:
-        """Return (n,) the first corner near each of (n, 3) points, -1 if there is none."""
+        """Return (n,) the corner within `near` of each of (n, 3) points, the first along SKEW; -1
+        if there is none.
+        """
         match = np.full(len(images), -1)
         height = images @ SKEW
         # For each image, the next corner in the order of heights that may be near.
@@ -245,8 +262,7 @@ class PlacedTriangles:
         unmatched = np.arange(len(images))
         for _ in range(MAX_TRIES):
             unmatched = unmatched[place[unmatched] < len(self._order)]
-            is_level = self._height[place[unmatched]] <= height[unmatched] + self.near
-            unmatched = unmatched[is_level]
+            unmatched = unmatched[self._height[place[unmatched]] <= height[unmatched] + self.near]
             if not len(unmatched):
                 break
             corner = self._order[place[unmatched]]
@@ -258,16 +274,20 @@ class PlacedTriangles:
 
     @cached_property
     def _creases(self) -> tuple[Index, NDArray[np.int64]]:
-        """(k, 3) corners of triangles with a crease at the first two corners, and the creases'
-        sorted codes.
+        """Creases: edges except those of exactly two triangles in one plane, on different sides.
+
+        (k, 3) corners of a triangle at each crease, turned so that the crease is between the first
+        two; and the (k,) sorted `_edge_codes` of all creases.
         """
         first_corners = self._first[self.triangles]
         count = len(self.triangles)
         code = np.concatenate([self._edge_codes(first_corners[:, [i, i - 1]]) for i in range(3)])
         order = np.argsort(code, kind="stable")
         # In the order of codes: edges that exactly two triangles share.
-        starts = np.flatnonzero(np.diff(code[order], prepend=-1))
+        starts = run_starts(code[order])
         pair = starts[np.diff(starts, append=len(code)) == 2]
+        # Entry k of `code` is the edge between corners k // count and k // count - 1 of triangle
+        # k % count.
         (side, triangle), (other_side, other) = (
             np.divmod(order[k], count) for k in (pair, pair + 1)
         )
@@ -278,12 +298,14 @@ class PlacedTriangles:
         is_crease = np.ones(len(code), bool)
         # The edge from a to c is no crease if both triangles are in its plane, on either side.
         across = cross_rows(normal, c - a)
-        is_flat = np.abs(((apex - a) * normal).sum(axis=1)) <= self.near / 4.0
-        is_flat &= ((apex - a) * across).sum(axis=1) * ((b - a) * across).sum(axis=1) <= 0.0
+        sides = ((apex - a) * across).sum(axis=1) * ((b - a) * across).sum(axis=1)
+        is_flat = (np.abs(((apex - a) * normal).sum(axis=1)) <= self.near / 4.0) & (sides <= 0.0)
         is_crease[order[pair[is_flat]]] = is_crease[order[pair[is_flat] + 1]] = False
         side, triangle = np.divmod(np.flatnonzero(is_crease), count)
-        corners = np.stack([self.triangles[triangle, side - i] for i in range(3)], axis=1)
-        return corners, np.sort(code[is_crease])
+        return (
+            np.stack([self.triangles[triangle, side - i] for i in range(3)], axis=1),
+            np.sort(code[is_crease]),
+        )
 
     def _edge_codes(self, corners: Index) -> NDArray[np.int64]:
         """Return (k,) numbers of edges by (k, 2) numbers of corners, negative for edges with a
@@ -319,22 +341,23 @@ def _nearest(products: NDArray, operations: NDArray) -> Index:
 
 
 def _closed(operations: NDArray, mask: Mask, generators: list[int], refuted: Mask) -> Mask | None:
-    """Return the mask of the group of all generators, which includes the masked group; None if one
-    is refuted.
+    """Return the mask of the group that generators and the masked group generate; None if an
+    operation in it is refuted, or not among the operations.
 
-    Coset by coset: a generator takes a coset of the masked group to a coset.
+    operations: (n, 3, 3). mask, refuted: (n,). The group grows by cosets of the masked group: each
+    generator takes a coset to a coset.
     """
-    own = operations[mask]
+    members = operations[mask]
     cosets = [np.eye(3)]
     mask = mask.copy()
-    for coset in cosets:  # the list grows meanwhile
+    for coset in cosets:  # by one operation of each; the list grows meanwhile
         for product in _nearest(operations[generators] @ coset, operations).tolist():
             if product < 0:
                 return None
             if not mask[product]:
-                members = _nearest(operations[product] @ own, operations)
-                if (members < 0).any() or refuted[members].any():
+                coset_members = _nearest(operations[product] @ members, operations)
+                if (coset_members < 0).any() or refuted[coset_members].any():
                     return None
-                mask[members] = True
+                mask[coset_members] = True
                 cosets.append(operations[product])
     return mask

@@ -28,7 +28,7 @@ from .symmetries import Symmetry
 from .unique_frames import equivalent_frames, undetermined_axes
 from .zernike import degrees
 
-# relative to the size: residuals nearer than this are equal, and the smallest turn is taken
+# Relative to the size: residuals nearer than this are equal, and the smallest turn is taken.
 EQUAL_RESIDUAL_RTOL = 1e-4
 MAX_FIT_RTOL = 1e-3  # relative to the size: below, a body lies on the other one
 FIRST_COMPARED = 32  # points of each surface that are compared first
@@ -84,8 +84,8 @@ def match(source: Moments, target: Moments, residual: Residual, size: float) -> 
 
 
 def _best_match(maps: Callable[[bool], NDArray], residual: Residual, size: float) -> RigidMatch:
-    """Return the best of the rotations that `maps` returns, and compare it with the reflections,
-    for True.
+    """Return the best of the rotations `maps(False)`, and whether the reflections `maps(True)` fit
+    much better.
     """
     rotation, distances = _best_map(maps(False), residual, size)
     largest = float(distances.max())
@@ -100,7 +100,8 @@ def _best_map(candidates: NDArray, residual: Residual, size: float) -> tuple[NDA
     """Return the map with the least residual among (k, 3, 3) maps, and its distances; of equal
     residuals, the smallest turn.
     """
-    # A few points give a lower bound of each residual. The others are measured in its order.
+    # A few points give a lower bound of each residual. All points are compared in the order of the
+    # bounds, until one is above the least residual.
     bounds = np.array([residual(candidate, FIRST_COMPARED).max() for candidate in candidates])
     residuals = np.full(len(candidates), np.inf)
     distances = {}
@@ -147,8 +148,7 @@ def flat_symmetry(
     if all(holds(turn) for turn in turns_about_normal(np.array(ROUND_ANGLES))):
         operations = np.array([np.eye(3), MIRROR])
         return Symmetry(axes @ operations @ axes.T, axes[:, 2][None], order)
-    # The tolerance may let a turn by about the right angle pass, but not turns by several times
-    # that.
+    # The tolerance may let one turn by nearly the right angle pass, but not its multiples.
     fold = next(
         n
         for n in range(MAX_AXIS_ORDER, 0, -1)
@@ -201,19 +201,25 @@ def turns_about_normal(angles: NDArray) -> Array:
 
 
 def _mirrors(zernike: NDArray, points: NDArray) -> Array:
-    """Return (k, 3, 3) reflections that may take a shape to itself: by moments, and by its
-    outermost corners.
+    """Return (k, 3, 3) reflections that may take a shape to itself: by moments, and those that take
+    its first outermost corner to another one.
     """
     radius = np.hypot(*points.T)
-    corners = np.arctan2(*points[radius > (1.0 - 1e-4) * radius.max()].T[::-1])
-    corners = corners[np.unique(np.round(corners, 5), return_index=True)[1][: 2 * MAX_AXIS_ORDER]]
-    angles = np.concatenate([_best_angles(zernike.conj(), zernike), corners[0] + corners])
+    corner_angles = np.arctan2(*points[radius > (1.0 - 1e-4) * radius.max()].T[::-1])
+    _, distinct = np.unique(np.round(corner_angles, 5), return_index=True)
+    corner_angles = corner_angles[distinct[: 2 * MAX_AXIS_ORDER]]
+    # A mirror image in y = 0, turned by the sum of two angles, has the first at the second.
+    angles = np.concatenate(
+        [_best_angles(zernike.conj(), zernike), corner_angles[0] + corner_angles]
+    )
     return turns_about_normal(angles) @ MIRROR
 
 
 def _best_angles(source: NDArray, target: NDArray) -> Array:
     """Return the (k,) angles of the largest overlap of the turned source with the target, the
     largest first.
+
+    source, target: `disc_zernike` to one order, which follows from their number.
     """
     order = next(n for n in count() if len(degrees(n)) == len(source))
     m = np.array([m for _, m in degrees(order)])
@@ -221,6 +227,7 @@ def _best_angles(source: NDArray, target: NDArray) -> Array:
     weights = np.array([terms[m == k].sum() for k in range(order + 1)])
 
     def derivative(angle: NDArray, times: int) -> NDArray:
+        """Return the overlap at (k,) angles, derived so many times."""
         powers = (-1j * np.arange(order + 1)) ** times
         return (
             weights * powers * np.exp(-1j * np.multiply.outer(angle, np.arange(order + 1)))

@@ -100,12 +100,12 @@ class Signature:
         """Read a signature from JSON. FileError if the record is not a signature."""
         try:
             arrays = [np.array(record[name], np.float64).reshape(-1) for name in ARRAYS]
-            invariants, zernike, fourier, chirality = arrays
             dimension = record.get("dimension", 3)
             result = cls(
-                float(record["size"]), invariants, zernike, fourier, chirality, dimension=dimension
+                size=float(record["size"]), dimension=dimension, **dict(zip(ARRAYS, arrays))
             )
             couplings = len(FLAT_PAIRS) + len(FLAT_TRIPLES)
+            # The numbers of invariants and of chiralities, by dimension.
             lengths = {
                 2: (INVARIANT_ORDER // 2 - 1 + couplings, int(IS_CHIRAL.sum())),
                 3: (2 + len(PAIRS) + len(EVEN_TRIPLES), len(CHIRAL_TRIPLES)),
@@ -206,8 +206,11 @@ def _numbers(
     radius: PerBody,
     zernike: Multiplets | None = None,
 ) -> tuple[Array, Array, Array, Array, PerBody]:
-    """Return invariants, descriptors, power, chirality and error from moments (K, …), with the last
-    axes of `raw`.
+    """Return invariants, descriptors, power, chirality and error, each with the axes (…) of bodies
+    after its own.
+
+    raw: (K, …) central moments. moments: those of the same body or stack, for their order and
+    measure. size, radius: (…). zernike: as for `signature`.
     """
     total = raw[0]
     order = min(moments.order, MAX_ORDER_BY_MOMENTS)
@@ -289,7 +292,7 @@ def _relative_difference(a: NDArray, b: NDArray) -> float:
 
 
 def _couplings(harmonic: Multiplets, triples: list[tuple[Key, Key, Key]]) -> list[Array]:
-    """Return the scalars of three multiplets each."""
+    """Return the scalars of triples of multiplets, (…) each."""
     return [couple(*(harmonic[key] for key in triple)) for triple in triples]
 
 
@@ -366,9 +369,10 @@ def flat_signature(moments: Moments, radius: float) -> Signature:
     )
     scalars = [c[p, p].real for p in range(2, INVARIANT_ORDER // 2 + 1)]
     zernike = np.abs(disc_zernike(moments, radius))
-    rounded = np.random.default_rng(0).uniform(-8.0 * U, 8.0 * U, monomial_count(order))
-    moved = Moments(moments.raw * (1.0 + rounded), moments.about, moments.measure)
-    error = float(np.abs(np.abs(disc_zernike(moved, radius)) - zernike).max())
+    # As in `descriptor_error`: the change of the descriptors if moments change by a few roundings.
+    rounding = np.random.default_rng(0).uniform(-8.0 * U, 8.0 * U, monomial_count(order))
+    rounded = Moments(moments.raw * (1.0 + rounding), moments.about, moments.measure)
+    error = float(np.abs(np.abs(disc_zernike(rounded, radius)) - zernike).max())
     return Signature(
         size,
         np.concatenate([scalars, couplings.real]),

@@ -55,8 +55,8 @@ class Symmetry:
         if len(self.revolution_axes) == 3:
             return "K"
         if len(self.revolution_axes):
-            is_reversed = _reverses_axis(self.operations, self.revolution_axes[0]).any()
-            return "D∞h" if is_reversed else "C∞v"
+            axis = self.revolution_axes[0]
+            return "D∞h" if _reverses_axis(self.operations, axis).any() else "C∞v"
         return _schoenflies(self)
 
     @property
@@ -136,6 +136,8 @@ def symmetry(
         mirrored = turn_by_harmonics(mirrored, harmonics.inverted(), noise)
     first = alike.frames[0]
     operations = [frame @ first.T for frame in alike.frames]
+    # If the inverted body looks in its frames as the body does in its own, inversion and the turn
+    # between both frames together are a symmetry.
     if (np.abs(alike.values - mirrored.values) <= alike.noise).all():
         operations += [-frame @ first.T for frame in mirrored.frames]
     axes = first.T[list(alike.revolution_axes)]
@@ -156,7 +158,11 @@ def _reverses_axis(operations: NDArray, axis: NDArray) -> Mask:
 
 
 def _schoenflies(finite: Symmetry) -> str:
-    """Return the symbol of a group without axes of revolution."""
+    """Return the symbol of a group without axes of revolution.
+
+    n is the highest order of an axis. The group is C or S if its proper operations are the n turns
+    about that axis, else D, or T, O or I if several axes have an order n above 2.
+    """
     axes = finite.axes
     planes = finite.planes
     proper = int((np.linalg.det(finite.operations) > 0.0).sum())

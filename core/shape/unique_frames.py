@@ -98,8 +98,8 @@ def equivalent_frames(moments: Moments, noise: float = NOISE_LEVEL) -> Equivalen
 
 
 def nearest_frame(equivalent: EquivalentFrames, preferred_axes: NDArray) -> Array:
-    """Return the equivalent frame nearest to the preferred axes. Both are (3, 3), with the axes as
-    columns.
+    """Return the equivalent frame nearest to the preferred axes, free axes turned to these. Both
+    are (3, 3), with the axes as columns.
     """
     free = undetermined_axes(equivalent.revolution_axes)
     frames = complete_free_axes(equivalent.frames, free, preferred_axes)
@@ -107,7 +107,9 @@ def nearest_frame(equivalent: EquivalentFrames, preferred_axes: NDArray) -> Arra
 
 
 def undetermined_axes(revolution_axes: tuple[int, ...]) -> tuple[int, ...]:
-    """Return the axes with directions that no moment fixes."""
+    """Return the axes with directions that no moment fixes: those across an axis of revolution, all
+    if there are several.
+    """
     if not revolution_axes:
         return ()
     return tuple(i for i in range(3) if i not in revolution_axes) or (0, 1, 2)

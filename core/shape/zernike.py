@@ -103,10 +103,11 @@ def zernike_quadrature(points: NDArray, triangles: NDArray, order: int) -> Multi
     as the ball.
     """
     corners = [points[triangles[:, i]] for i in range(3)]
-    size = np.sqrt(
+    longest = np.sqrt(
         np.max([((corners[i] - corners[i - 1]) ** 2).sum(axis=1) for i in range(3)], axis=0)
     )
-    nodes = _nodes(size, order)
+    nodes = _nodes(longest, order)
+    # Of each degree those of m ≥ 0; the others follow.
     total = {key: np.zeros(key[1] + 1, complex) for key in degrees(order)}
     for needed in np.unique(nodes):
         faces = np.flatnonzero(nodes == needed)
@@ -120,14 +121,14 @@ def zernike_quadrature(points: NDArray, triangles: NDArray, order: int) -> Multi
     return {key: sqrt(3.0 / (4.0 * pi)) * with_negative_orders(half) for key, half in total.items()}
 
 
-def _nodes(size: NDArray, order: int) -> NDArray[np.int64]:
-    """Return the number of Gauss points on a line for each triangle, by its size and the
+def _nodes(longest: NDArray, order: int) -> NDArray[np.int64]:
+    """Return the number of Gauss points on a line for each triangle, by its longest side and the
     polynomials' oscillation.
     """
     exact_count = ceil((order + 2) / 2)
-    counts = np.full(len(size), exact_count)
-    # A polynomial of degree n on the ball turns by at most about n radians.
-    phase = (order + 2.0) * size / 2.0
+    counts = np.full(len(longest), exact_count)
+    # A polynomial of degree n turns by at most about n radians over the ball, whose diameter is 2.
+    phase = (order + 2.0) * longest / 2.0
     for points in range(exact_count - 1, 0, -1):
         # By Gauss's rule, the error of e^(ix) over [-phase/2, phase/2] is (phase/2)^2g / (2g)! in
         # size, with g points.
@@ -137,13 +138,15 @@ def _nodes(size: NDArray, order: int) -> NDArray[np.int64]:
 
 
 def _add_cones(total: Multiplets, x: NDArray, weight: NDArray, order: int) -> None:
-    """Add to each total[n, l], (l+1,) for m = 0..l, the integrals along the cones to (k, 3)
-    points.
+    """Add to each total[n, l], (l+1,) for m = 0..l, the integrals along the cones to (k, 3) points.
+
+    weight: (k,) of the points, their triangle's determinant times the rule's weight.
     """
     argument = 2.0 * (x * x).sum(axis=1) - 1.0
     for l, harmonics in _solid_harmonics(x, order):
         conjugate = harmonics.conj()
-        # S_k and A_k of the module's recursion, for J_k at x = 1.
+        # J_k and A_k by the module's recursion, without the factor r^l of S_k, which the solid
+        # harmonics have.
         a = 0.0
         for n, s in zip(range(l, order + 1, 2), _jacobi(l + 0.5, argument)):
             along = weight * (s - a) / (n + 3)

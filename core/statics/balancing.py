@@ -135,11 +135,14 @@ def balance(
     if not _is_solvable(slope):
         raise MeasureError(BALANCE_NO_EFFECT)
     points, center, far = _newton_solve(problem, start, step_directions, movable, np.inf)
-    left = far
+    far_within_limit = far
     if far or np.linalg.norm(points - problem.start, axis=1).max() > limit:
-        points, center, left = _newton_solve(problem, start, step_directions, movable, limit)
-    if left:
-        raise MeasureError(BALANCE_SHORT, distance=float(far or left), limit=float(limit))
+        points, center, far_within_limit = _newton_solve(
+            problem, start, step_directions, movable, limit
+        )
+    if far_within_limit:
+        distance = float(far or far_within_limit)
+        raise MeasureError(BALANCE_SHORT, distance=distance, limit=float(limit))
     problem.check(points, movable)
     return BalanceResult(points, before, center)
 
@@ -170,6 +173,9 @@ def _newton_solve(
 ) -> tuple[Array, Array, float]:
     """Return (n, 3) points, the (3,) center, and its remaining distance from its target, 0 if
     reached.
+
+    step_directions: (r, k, 3) moves of the (k,) movable vertices for each unit of the (r,)
+    multiplier. limit: of each vertex's move.
     """
     multiplier = np.zeros(len(step_directions))
     slope = _center_jacobian(step_directions, multiplier, start.gradient[:, movable], limit)
@@ -179,7 +185,7 @@ def _newton_solve(
         if np.linalg.norm(current.state.residual) <= problem.tolerance:
             break
         following = _newton_step(problem, current, step_directions, movable, limit)
-        if following is None:
+        if following is None:  # rounding may keep the center a little beyond the tolerance
             least = 16.0 * problem.tolerance
             break
         current = following
@@ -201,6 +207,7 @@ def _newton_step(
         points = problem.start.copy()
         points[movable] += _limited_moves(step_directions, multiplier, limit)
         state = problem.evaluate(points)
+        # A full step should leave no distance; a tenth of the progress is enough.
         if state is not None and np.linalg.norm(state.residual) <= (1.0 - 0.1 * share) * far:
             gradient = state.gradient[:, movable]
             slope = _center_jacobian(step_directions, multiplier, gradient, limit)
@@ -233,6 +240,8 @@ def _center_jacobian(
 ) -> Array:
     """Return the (r, r) derivative of the center by the multiplier; moves cut to the limit can turn
     but not grow.
+
+    gradient: (r, k, 3) of the center's coordinates by the movable vertices.
     """
     if np.isfinite(limit):
         moves = np.einsum("rnk,r->nk", step_directions, multiplier)
@@ -248,7 +257,9 @@ def _center_jacobian(
 
 
 class _Problem:
-    """The center of one surface as a function of its points."""
+    """The center of one surface as a function of its points. across: (r, 3) orthonormal rows along
+    which it counts. target: (3,).
+    """
 
     def __init__(self, surface: Surface, shell: bool, across: NDArray, target: NDArray):
         triangles, _ = surface.all_triangles()
@@ -278,6 +289,7 @@ class _Problem:
         center = moments.center
         derive = area_gradient if self.shell else volume_gradient
         gradient = derive(replace(self.surface, points=points), center)
+        # About the center the first moments vanish: its derivative is theirs over the total.
         return _State(
             center,
             self.across @ (self.target - center),
@@ -285,8 +297,8 @@ class _Problem:
         )
 
     def check(self, points: NDArray, movable: NDArray) -> None:
-        """Raise MeasureError if a triangle turns by a right angle: N(s)·N(0), a quadratic, has a
-        root in [0, 1].
+        """Raise MeasureError if a triangle turns by a right angle on the straight way to its (n, 3)
+        moved points: N(s)·N(0), a quadratic, has a root in [0, 1].
         """
         moved = np.zeros(len(points), bool)
         moved[movable] = True
@@ -306,6 +318,7 @@ class _Problem:
         jacobian = np.array([(row * normal).sum(axis=1) for row in coefficients])[:, None, solid]
         turn_length = np.sqrt(np.max([(turn * turn).sum(axis=1) for turn in turns], axis=0))
         long = np.sqrt(longest)
+        # Products of the lengths in N(s)·N(0), times a bound of its roundings.
         error = (
             32.0
             * U
@@ -318,8 +331,11 @@ class _Problem:
 
 
 class _Fans:
-    """Faces as fans around the means of their vertices; areas: (n,) each vertex's equal shares of
-    its faces' areas.
+    """Faces as fans around the means of their vertices.
+
+    areas: (n,) each vertex's equal shares of its faces' areas. owner, vertex, share: (p,) face,
+    vertex and the vertex's share of the face, of each pair of both. points: (n + f, 3) vertices and
+    middles. fan: (t, 3) triangles; opposed: (t,) mask of those that face against their face.
     """
 
     def __init__(self, surface: Surface, shell: bool):
@@ -327,9 +343,9 @@ class _Fans:
         self.shell = shell
         self.count = len(surface.points)
         points = surface.points.astype(np.float64)
-        names, faces = np.unique(faces, return_inverse=True)
+        face_ids, faces = np.unique(faces, return_inverse=True)
         faces = faces.ravel()
-        number = len(names)
+        number = len(face_ids)
         vectors = normals(points, triangles)
         # Each pair of a face and a vertex once, by a key of both.
         key = np.unique(np.repeat(faces, 3) * np.int64(self.count) + triangles.ravel())
@@ -360,7 +376,7 @@ class _Fans:
         """Return (n, 3, 3) ∂ center[i] / ∂ vertex[k], each face's middle moving with its
         vertices.
         """
-        if self.shell:  # signed as the faces' own areas are
+        if self.shell:  # opposed triangles take away area, as in the face that they belong to
             parts = [
                 area_gradient(Surface(self.points, triangles), center)[:, 1:4]
                 for triangles in (self.fan[~self.opposed], self.fan[self.opposed])

@@ -87,29 +87,39 @@ def area_gradient(surface: Surface, about: ArrayLike) -> Array:
 
 
 def _gradient(surface: Surface, about: ArrayLike, shares: Callable, count: int) -> Array:
+    """Return the (n, count, 3) sums at every vertex of the shares of its triangles' corners.
+
+    shares: yields (count, 3, m) for each corner of m triangles, from their (3, 3, m) corners, these
+    from `about`, and (3, m) doubled normals.
+    """
     check_type("surface", surface, Surface)
     about = float_array("about", about, 3)
     points = surface.points.astype(np.float64)
     triangles, _ = surface.all_triangles()
-    out = np.zeros((3 * count, len(points)))
+    sums = np.zeros((3 * count, len(points)))
     for start in range(0, len(triangles), TRIANGLES_PER_BLOCK):
         part = triangles[start : start + TRIANGLES_PER_BLOCK].astype(np.intp)
+        # Only the span of vertices that this block uses is summed up.
         low = int(part.min())
         place = part - low
         length = int(part.max()) - low + 1
         corners = points[part].transpose(1, 2, 0)  # corner, axis, triangle
         normal = np.stack(cross(corners[1] - corners[0], corners[2] - corners[0]))
         for vertex, values in zip(place.T, shares(corners, corners - about[:, None], normal)):
-            for row, target in zip(values.reshape(3 * count, -1), out):
+            for row, target in zip(values.reshape(3 * count, -1), sums):
                 target[low : low + length] += np.bincount(vertex, row, length)
-    return out.reshape(count, 3, -1).transpose(2, 0, 1)
+    return sums.reshape(count, 3, -1).transpose(2, 0, 1)
 
 
 def _volume_shares(
-    corners: NDArray, local: NDArray, normal: NDArray, order: int
+    _corners: NDArray, local: NDArray, normal: NDArray, order: int
 ) -> Iterator[NDArray]:
-    """Yield for each corner the (k, 3, m) shares of m triangles; local: (3, 3, m) corners from the
-    reference point.
+    """Yield for each corner the (k, 3, m) derivatives of the k volume moments to `order` in m
+    triangles.
+
+    _corners, local: (3, 3, m) corners, and corners from the reference point; axes are corner, axis,
+    triangle. Only `_area_shares` needs the former: their differences are not rounded twice. normal:
+    (3, m), as long as the doubled areas.
     """
     total = local[0] + local[1] + local[2]
     i, j = np.triu_indices(3)
@@ -130,6 +140,7 @@ def _area_shares(corners: NDArray, local: NDArray, normal: NDArray) -> Iterator[
     """
     double = np.sqrt(np.einsum("im,im->m", normal, normal))
     unit = normal / np.where(double > 0.0, double, 1.0)
+    # The moments over |N|, half of the means: an area is |N| / 2, and each corner has a third.
     mean = np.empty((4, len(double)))
     mean[0] = 0.5
     mean[1:4] = (local[0] + local[1] + local[2]) / 6.0

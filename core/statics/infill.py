@@ -17,14 +17,15 @@ def infill_range(
     """Return the least and the largest infill, from 0 to 1, with the center inside a polygon by a
     margin; None if there is none.
 
-    corners: (k, 2), counterclockwise. empty, growth: (3,) mass and first moments without infill,
-    and their growth to full infill.
+    corners: (k, 2), counterclockwise. empty, growth: (3,) mass and first moments x, y without
+    infill, and their growth to full infill.
     """
-    start, along = _edges(corners)
-    # mass · (n·(center - start) - margin) at infill 0, and its growth
+    start, inward = _edges(corners)
+    # For each edge, mass · (n·(center - start) - margin) at infill 0, and its growth. It is linear
+    # in the infill, and must not be negative.
     at_zero, rate = (
-        along @ one[1:] - one[0] * (np.einsum("ki,ki->k", along, start) + margin)
-        for one in (empty, growth)
+        inward @ moments[1:] - moments[0] * (np.einsum("ki,ki->k", inward, start) + margin)
+        for moments in (empty, growth)
     )
     root = -at_zero / np.where(rate != 0.0, rate, 1.0)
     low = float(root[rate > 0.0].max(initial=0.0))
@@ -42,16 +43,19 @@ def largest_margin(corners: Array, empty: Array, growth: Array) -> tuple[float, 
 
 def least_ballast(corners: Array, mass: Array, places: Array, margin: float, sign: float) -> Array:
     """Return the (k,) least masses that bring the center inside a polygon by a margin if they are
-    added (sign 1) or taken away (-1) at places (k, 2), infinity if none does; as `infill_range`.
+    added (sign 1) or taken away (-1) at places (k, 2), infinity if none does.
+
+    corners: as for `infill_range`. mass: (3,) mass and first moments x, y without ballast. Again,
+    mass · (n·(center - start) - margin) is linear in the ballast, and must not be negative.
     """
-    start, along = _edges(corners)
-    heights = np.einsum("ki,ki->k", along, start) + margin
-    now = along @ mass[1:] - mass[0] * heights
-    rate = sign * (places @ along.T - heights)
-    root = -now / np.where(rate != 0.0, rate, 1.0)
+    start, inward = _edges(corners)
+    heights = np.einsum("ki,ki->k", inward, start) + margin
+    at_zero = inward @ mass[1:] - mass[0] * heights
+    rate = sign * (places @ inward.T - heights)
+    root = -at_zero / np.where(rate != 0.0, rate, 1.0)
     low = np.where(rate > 0.0, root, 0.0).max(axis=1, initial=0.0)
     high = np.where(rate < 0.0, root, np.inf).min(axis=1)
-    allowed = (low <= high) & ((rate != 0.0) | (now >= 0.0)).all(axis=1)
+    allowed = (low <= high) & ((rate != 0.0) | (at_zero >= 0.0)).all(axis=1)
     return np.where(allowed, low, np.inf)
 
 
@@ -62,14 +66,18 @@ def ballast_margins(corners: Array, mass: Array, places: Array, added: Array) ->
 
 
 def _margins(corners: Array, moments: Array) -> Array:
-    """Return the margins of the centers of (k, 3) masses and first moments."""
-    start, along = _edges(corners)
+    """Return the (k,) margins of the centers of (k, 3) masses and first moments x, y: distances
+    from the nearest edge's line, negative outside.
+    """
+    start, inward = _edges(corners)
     centers = moments[:, 1:] / moments[:, :1]
-    return (centers @ along.T - np.einsum("ki,ki->k", along, start)).min(axis=1)
+    return (centers @ inward.T - np.einsum("ki,ki->k", inward, start)).min(axis=1)
 
 
 def _edges(corners: Array) -> tuple[Array, Array]:
-    """Return the starts of a polygon's edges, and unit vectors across them that point inside."""
+    """Return (k, 2) starts of a counterclockwise polygon's edges, and (k, 2) unit vectors across
+    them that point inside.
+    """
     sides = np.roll(corners, -1, axis=0) - corners
     across = np.column_stack([-sides[:, 1], sides[:, 0]])
     return corners, across / np.linalg.norm(across, axis=1)[:, None]

@@ -65,19 +65,19 @@ def fit_mixes(surface: Surface, offsets: ArrayLike) -> Mixes:
             if sum(powers) <= DEGREE
         ]
     )
-    # the lattice of a simplex, on which a polynomial of this degree is unique
+    # Mixing values on the lattice of a simplex, where a polynomial of this degree is unique.
     nodes = exponents / DEGREE
     samples = np.empty((len(nodes), 4))
-    for place, values in enumerate(nodes):
+    for row, values in enumerate(nodes):
         mixed = points + np.tensordot(values, offsets, axes=1)
         volume, _ = polyhedron_moments(
             Surface.from_triangles(mixed, triangles), 1, about=about, allow_open=True
         )
-        samples[place] = volume.raw
+        samples[row] = volume.raw
     coefficients = np.linalg.solve(_powers(nodes, exponents), samples)
     return Mixes(np.asarray(coefficients, np.float64), exponents, about)
 
 
 def _powers(values: NDArray, exponents: NDArray) -> Array:
-    """Return the (f, c) products of (f, k) values to the powers (c, k)."""
+    """Return the (f, c) monomials: products of (f, k) values to the powers (c, k)."""
     return np.prod(values[:, None, :] ** exponents, axis=2)

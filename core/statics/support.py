@@ -36,6 +36,7 @@ from ..numerics import (
     check_type,
     connected_components,
     float_array,
+    run_starts,
     sums_by_index,
     unit_vector,
 )
@@ -153,12 +154,12 @@ def find_contacts(
     reach: float,
     may_touch: ArrayLike = True,
 ) -> tuple[Index, Array, float]:
-    """Return the rows of the points that touch level ground, their (k, 3) places in the world, and
-    the least height.
+    """Return the (k,) indices of the points that touch level ground, their (k, 3) places in the
+    world, and the least height above the ground of a point that counts.
 
-    points: (n, 3) of a body. matrix: (4, 4) from these to the world. ground: its height against
-    gravity from the world's origin. reach: points up to this height above it touch it. may_touch:
-    (n,) mask of points that count.
+    points: (n, 3) of a body. matrix: (4, 4) from these to the world. down: (3,) unit vector of
+    gravity in the world. ground: its height against gravity from the world's origin. reach: points
+    up to this height above it touch it. may_touch: (n,) mask of points that count.
     """
     heights = points @ (-down @ matrix[:3, :3]).astype(points.dtype) - (
         down @ matrix[:3, 3] + ground
@@ -212,6 +213,7 @@ def polygon_margin(corners: Array) -> tuple[float, Array]:
         nearest = int(distances.argmin())
         if distances[nearest] >= 0.0:
             return float(distances[nearest]), outward[nearest]
+    # Outside, or of a line or a point: the place on the edges nearest to the origin.
     squares = np.where(lengths > 0.0, lengths**2, 1.0)
     share = np.clip(-(corners * along).sum(axis=1) / squares, 0.0, 1.0)
     closest = corners + share[:, None] * along
@@ -219,6 +221,7 @@ def polygon_margin(corners: Array) -> tuple[float, Array]:
     nearest = int(distances.argmin())
     if distances[nearest] > ON_EDGE * np.abs(corners).max():
         return -float(distances[nearest]), -closest[nearest] / distances[nearest]
+    # On the edge: straight over it; a point has no edge, and any direction will do.
     side = along[nearest] / lengths[nearest] if lengths[nearest] > 0.0 else np.array([0.0, -1.0])
     return 0.0, np.array([side[1], -side[0]])
 
@@ -321,7 +324,7 @@ def resting_poses(
     shares = sums_by_index(faces.face, angles, len(heights)) / (4.0 * np.pi)
     # A face that contains the center has an uncertain solid angle: it gets the share that the
     # others leave.
-    has_center = heights <= 1e-9 * extent
+    has_center = heights <= 1e-9 * extent  # in its plane, within rounding
     if has_center.any():
         shares[has_center] = (1.0 - shares[~has_center].sum()) / np.count_nonzero(has_center)
     is_stable = faces.margins > least
@@ -354,19 +357,23 @@ class _Faces(NamedTuple):
 
 
 def _faces(points: NDArray, hull: ConvexHull, least: float) -> _Faces:
-    """Return the faces of a hull, each of triangles in one plane. points: from the center. least:
-    smaller distances count as 0.
+    """Return the faces of a hull, each of triangles in one plane.
+
+    points: (n, 3) corners of the hull from the body's center. least: smaller distances from a plane
+    count as 0.
     """
     triangles, neighbors = hull.triangles, hull.neighbors
-    double = normals(points, triangles)
-    face, count = _coplanar(points, triangles, neighbors, double, least)
-    summed = np.stack([sums_by_index(face, double[:, axis], count) for axis in range(3)], axis=1)
+    area_vectors = normals(points, triangles)
+    face, count = _coplanar(points, triangles, neighbors, area_vectors, least)
+    summed = np.stack([sums_by_index(face, column, count) for column in area_vectors.T], axis=1)
     lengths = np.linalg.norm(summed, axis=1)
     unit = summed / np.where(lengths > 0.0, lengths, 1.0)[:, None]
     heights = np.full(count, -np.inf)
     for k in range(3):
         np.maximum.at(heights, face, np.einsum("ij,ij->i", unit[face], points[triangles[:, k]]))
 
+    # Each side between two faces, seen from the owner, and the face beyond it. The distance is that
+    # of the center's foot inside the side.
     triangle, side = np.nonzero(face[neighbors] != face[:, None])
     owner = face[triangle]
     beyond = face[neighbors[triangle, side]]
@@ -376,9 +383,7 @@ def _faces(points: NDArray, hull: ConvexHull, least: float) -> _Faces:
     length = np.linalg.norm(inward, axis=1)
     distance = -np.einsum("ij,ij->i", inward, start) / np.where(length > 0.0, length, 1.0)
     order = np.lexsort((distance, owner))
-    first = np.ones(len(order), bool)  # Empty if the whole hull is one face.
-    first[1:] = owner[order][1:] != owner[order][:-1]
-    nearest = order[first]
+    nearest = order[run_starts(owner[order])]  # empty if the whole hull is one face
     margins = np.full(count, -np.inf)
     margins[owner[nearest]] = distance[nearest]
     nearest_face = np.arange(count)
@@ -387,20 +392,24 @@ def _faces(points: NDArray, hull: ConvexHull, least: float) -> _Faces:
 
 
 def _coplanar(
-    points: NDArray, triangles: NDArray, neighbors: NDArray, double: NDArray, least: float
+    points: NDArray, triangles: NDArray, neighbors: NDArray, area_vectors: NDArray, least: float
 ) -> tuple[Index, int]:
     """Return the (m,) faces of the triangles, and the number of faces.
+
+    neighbors: (m, 3) triangles beyond each side. area_vectors: (m, 3) normals as long as the
+    doubled areas. least: largest distance from a plane that counts as 0.
 
     Neighbors are in one plane if the corner of the smaller one is in the plane of the larger. A
     sliver may join triangles on both its sides that are not in one plane. Such a group is divided,
     and only neighbors that face alike are joined; the triangles of a group still not in one plane,
     such as a fine rounding, stay single.
     """
-    lengths = np.linalg.norm(double, axis=1)
+    lengths = np.linalg.norm(area_vectors, axis=1)
     triangle, side = np.divmod(np.arange(neighbors.size), 3)
     other = neighbors.ravel()
     larger = lengths[triangle] >= lengths[other]
     triangle, other, side = (values[larger] for values in (triangle, other, side))
+    # The corner of the other triangle that is not on the common side, from the larger one's plane.
     corners = triangles[other]
     shared = (corners == triangles[triangle, side][:, None]) | (
         corners == triangles[triangle, (side + 1) % 3][:, None]
@@ -409,7 +418,7 @@ def _coplanar(
         points[corners[np.arange(len(other)), shared.argmin(axis=1)]]
         - points[triangles[triangle, 0]]
     )
-    unit = double / np.where(lengths > 0.0, lengths, 1.0)[:, None]
+    unit = area_vectors / np.where(lengths > 0.0, lengths, 1.0)[:, None]
     cosine = np.einsum("ij,ij->i", unit[triangle], unit[other])
     flat = (cosine >= 0.0) & (np.abs(np.einsum("ij,ij->i", unit[triangle], apart)) <= least)
     order = np.argsort(lengths, kind="stable")
@@ -425,6 +434,7 @@ def _coplanar(
         offsets = points[triangles] - points[triangles[base, 0]][:, None]
         off = np.abs(np.einsum("ij,ikj->ik", unit[base], offsets)).max(axis=1)
         bent = np.zeros(count, bool)
+        # Each step to a neighbor may add `least`; 4 such steps still count as one plane.
         bent[face[off > 4.0 * least]] = True
         return face, bent[face]
 

@@ -57,9 +57,10 @@ SMOOTHING_RTOL = 1e-12
 class OffsetDirections:
     """Offset directions, (n, 3) `vectors`: the displacement of each vertex per unit of thickness.
 
-    tangential_error, normal_error: (2, n) first-order bounds of the vectors' changes, in all and
-    along the normals, by rounding and by storing the points as float32, except by multiplicative
-    weights. has_normal: (m,) False if ignored.
+    tangential_error, normal_error: (2, n) first-order bounds of the vectors' changes, of their
+    whole length and of their part along the normals; row 0 by rounding, row 1 by storing the points
+    as float32. Directions by multiplicative weights have no such bound. has_normal: (m,) False for
+    triangles without a known normal, which were ignored.
     """
 
     vectors: Array
@@ -86,25 +87,25 @@ def weld_equal(surface: Surface) -> tuple[Array, Integers]:
     triangles = triangles[(triangles != np.roll(triangles, 1, axis=1)).all(axis=1)]
     if not len(triangles):
         raise MeasureError(NO_FACE_AREA)
-    used, number = np.unique(triangles, return_inverse=True)
-    triangles = number.reshape(-1, 3)
+    used, triangles = np.unique(triangles, return_inverse=True)
+    triangles = triangles.reshape(-1, 3)
     edges = find_edges(triangles)
     misoriented = (edges.count == 2) & (
         edges.signed_use_count(np.zeros(len(triangles), bool)) != 0.0
     )
-    for fault, wrong in (
+    for fault, is_wrong in (
         ("more than two faces meet there. Separate the parts", edges.count > 2),
         ("the normals there are opposite. Use Mesh > Normals > Recalculate Outside", misoriented),
     ):
-        if wrong.any():
-            pairs = used[vertex_pairs(triangles, edges.first[wrong])]
+        if is_wrong.any():
+            pairs = used[vertex_pairs(triangles, edges.first[is_wrong])]
             raise MeasureError(WALL_WITHOUT_SIDES, elements=pairs, count=len(pairs), fault=fault)
     return surface.points[used].astype(np.float64), triangles
 
 
 def offset_directions(points: Array, triangles: Integers, stored: float = 0.0) -> OffsetDirections:
-    """Return the direction of every vertex of float64 points, which storing has moved by at most
-    `stored`.
+    """Return the direction of every vertex of (n, 3) float64 points, which storing has moved by at
+    most `stored`, a length.
     """
     count = len(points)
     normals, angles, noise, solid = (
@@ -114,6 +115,7 @@ def offset_directions(points: Array, triangles: Integers, stored: float = 0.0) -
     corner = triangles[solid].ravel()
     weight = angles[solid].ravel()
     normals = np.repeat(normals[solid], 3, axis=0)
+    # The angle around each vertex; a vertex without a known normal has no corner.
     total = np.maximum(np.bincount(corner, weight, count), np.finfo(float).tiny)
 
     def mean(values: NDArray) -> Array:
@@ -124,7 +126,7 @@ def offset_directions(points: Array, triangles: Integers, stored: float = 0.0) -
     length = np.linalg.norm(middle, axis=1)
     middle /= np.where(length > 0.0, length, 1.0)[:, None]
     # With d = m + c, m the mean normal: Σ θ n n'·c = Σ θ n (1 - n·m), and 1 - n·m = |n - m|² / 2
-    # does not cancel. The part of m along an ignored crease has to go, too.
+    # does not cancel. `solved` takes away the part of m along a crease of planes that count as one.
     short = ((normals - middle[corner]) ** 2).sum(axis=1) / 2.0
     system = np.empty((count, 3, 3))
     for i in range(3):
@@ -136,11 +138,13 @@ def offset_directions(points: Array, triangles: Integers, stored: float = 0.0) -
     tilt = np.stack([_group_maximum(row.repeat(3), corner, count) for row in noise[solid].T])
     noisy = tilt.sum(axis=0)
     least_share = -_group_maximum(-weight / total[corner], corner, count)
+    # A mean square over the corners bounds the square at each of them by this factor squared.
     thinnest = 1.0 / np.sqrt(np.maximum(least_share, np.finfo(float).tiny))
 
     def solved(least: float) -> tuple[NDArray, NDArray, NDArray]:
-        """Return (n, 3) directions across planes with eigenvalues above `least`, mean deviations,
-        and sensitivities.
+        """Return (n, 3) directions in the axes with eigenvalues above `least`, relative to the
+        largest; (n,) root mean squares of n·d - 1; and (n,) bounds of the change of d for each
+        radian by which the normals turn.
         """
         independent = values > least * values[:, 2:]
         inverse = np.where(independent, 1.0 / np.where(independent, values, 1.0), 0.0)
@@ -148,26 +152,32 @@ def offset_directions(points: Array, triangles: Integers, stored: float = 0.0) -
             "nij,nj,nkj,nk->ni", axes, independent, axes, middle
         )
         off = np.sqrt(mean((np.einsum("ij,ij->i", normals, vectors[corner]) - 1.0) ** 2))
+        # Wedin's bound for least squares of least norm, with `gain` the norm of the inverse:
+        # 2 gain |d|, half of it because the free axes turn, and gain² off by the residual.
         gain = np.sqrt(inverse.max(axis=1))
         return vectors, off, 2.0 * gain * np.linalg.norm(vectors, axis=1) + gain**2 * off
 
     vectors, off, gain = solved(SAME_PLANE_RTOL)
+    # Normals that are off by `noisy` change n·d by at most noisy |d|; 4 is a margin.
     rough = off > UNEVEN_RTOL + 4.0 * noisy * np.linalg.norm(vectors, axis=1)
     if rough.any():
-        smooth, spread, residual = solved(LEAST_SQUARES_RTOL)
-        vectors[rough], gain[rough], off[rough] = smooth[rough], residual[rough], spread[rough]
+        for values_by_vertex, smooth in zip((vectors, off, gain), solved(LEAST_SQUARES_RTOL)):
+            values_by_vertex[rough] = smooth[rough]
         low = -_group_maximum(-np.einsum("ij,ij->i", normals, vectors[corner]), corner, count)
         behind = np.flatnonzero(rough & (low < MIN_ADVANCE))
         if len(behind):
             _maximin_direction(vectors, behind, low, corner, weight, normals)
-    # The axes along which a vertex may slide without moving the planes around it.
+    # The axes along which a vertex may slide without moving the planes around it. Normals that are
+    # off by `noisy` give an eigenvalue of at most its square; 8 is a margin.
     is_free = values <= np.maximum(RANK_RTOL, (8.0 * noisy) ** 2)[:, None] * values[:, 2:]
     is_free &= (total > np.finfo(float).tiny)[:, None] & ~rough[:, None]
     if is_free.any():
         free = np.einsum("nij,nj,nkj->nik", axes, is_free, axes)
         vectors = _smooth_in_plane(points, triangles[solid], vectors, free)
     far = np.linalg.norm(vectors, axis=1)
+    # The change of n·d for each radian: the normal's own turn, and that of the solution.
     lift = thinnest * (far + gain * off)
+    # Of both rows, only rounding has its own errors of the solution, some 8 roundings.
     return OffsetDirections(
         vectors,
         gain * tilt + 8.0 * U * gain * [[1.0], [0.0]],
@@ -177,8 +187,8 @@ def offset_directions(points: Array, triangles: Integers, stored: float = 0.0) -
 
 
 def _smooth_in_plane(points: NDArray, triangles: NDArray, vectors: NDArray, free: NDArray) -> Array:
-    """Return vectors made even by conjugate gradients along projections `free`, (n, 3, 3);
-    boundaries stay.
+    """Return vectors made even by conjugate gradients along projections `free`, (n, 3, 3), which
+    become zero at the boundaries, so that these stay.
     """
     edges = find_edges(triangles)
     # Boundaries are closed loops, so that each end of a side is the start of one.
@@ -187,8 +197,8 @@ def _smooth_in_plane(points: NDArray, triangles: NDArray, vectors: NDArray, free
     triangles = triangles[can_move[triangles].any(axis=1)]
     if not len(triangles):
         return vectors
-    used, number = np.unique(triangles, return_inverse=True)
-    triangles = number.reshape(-1, 3)
+    used, triangles = np.unique(triangles, return_inverse=True)
+    triangles = triangles.reshape(-1, 3)
     free = free[used]
     count = len(used)
     corners = points[used][triangles]
@@ -215,28 +225,28 @@ def _smooth_in_plane(points: NDArray, triangles: NDArray, vectors: NDArray, free
     size = np.bincount(start, np.abs(weight), count) + np.bincount(stop, np.abs(weight), count)
     size = np.maximum(size, np.finfo(float).tiny)[:, None]  # the preconditioner's diagonal
     directions = vectors[used]
-    rest = -gradient(directions)
-    step = rest / size
-    power = first = np.vdot(rest, step)
+    residual = -gradient(directions)
+    step = residual / size
+    unevenness = first = np.vdot(residual, step)
     for _ in range(SMOOTHING_STEPS):
-        if not power > SMOOTHING_RTOL**2 * first:
+        if not unevenness > SMOOTHING_RTOL**2 * first:
             break
         image = gradient(step)
-        curve = np.vdot(step, image)
-        if not curve > 0.0:
+        curvature = np.vdot(step, image)
+        if not curvature > 0.0:  # cotangents of wide angles are negative
             break
-        directions = directions + power / curve * step
-        rest = rest - power / curve * image
-        before = power
-        power = np.vdot(rest, rest / size)
-        step = rest / size + power / before * step
+        directions = directions + unevenness / curvature * step
+        residual = residual - unevenness / curvature * image
+        before = unevenness
+        unevenness = np.vdot(residual, residual / size)
+        step = residual / size + unevenness / before * step
     vectors = vectors.copy()
     vectors[used] = directions
     return vectors
 
 
 def _group_maximum(values: NDArray, group: NDArray, count: int) -> Array:
-    """Return the (count,) largest of the (k,) values in each group, zero for empty groups."""
+    """Return the (count,) largest of the (k,) values in each (k,) group, zero for empty groups."""
     order = np.argsort(values)
     maximum = np.zeros(count)
     maximum[group[order]] = values[order]  # The last of equal indices wins.
@@ -251,17 +261,19 @@ def _maximin_direction(
     weight: NDArray,
     normals: NDArray,
 ) -> None:
-    """Replace the vectors of vertices `behind` by vectors farther in front of all their faces. low:
-    (n,) least n·d.
+    """Replace the (n, 3) vectors of vertices `behind` in place if other ones are farther in front
+    of all their faces.
+
+    low: (n,) least n·d. corner, weight, normals: the vertex, angle and normal of each corner.
     """
+    count = len(behind)
     number = np.full(len(vectors), -1)
-    number[behind] = np.arange(len(behind))
+    number[behind] = np.arange(count)
     corner_rows = np.flatnonzero(number[corner] >= 0)
     vertex = number[corner[corner_rows]]
     normals = normals[corner_rows]
     angle = weight[corner_rows]
-    count = len(behind)
-    share = angle / np.bincount(vertex, angle, len(behind))[vertex]
+    share = angle / np.bincount(vertex, angle, count)[vertex]
     best = np.full(count, -np.inf)
     best_direction = np.zeros((count, 3))
     for k in range(MAXIMIN_STEPS):
@@ -274,8 +286,10 @@ def _maximin_direction(
         least = -_group_maximum(-height, vertex, count)
         better = least > best
         best[better], best_direction[better] = least[better], trial[better]
+        # Faces that the trial is least in front of count more in the next one.
         share = share * np.exp(-height / np.sqrt(1.0 + k))
         share /= np.bincount(vertex, share, count)[vertex]
+    # The length that moves the faces by 1 in the mean, by least squares.
     height = np.einsum("ij,ij->i", normals, best_direction[vertex])
     square = np.bincount(vertex, angle * height**2, count)
     scale = np.bincount(vertex, angle * height, count) / np.where(square > 0.0, square, 1.0)
@@ -286,8 +300,10 @@ def _maximin_direction(
 def corner_geometry(
     points: NDArray, stored: float = 0.0
 ) -> tuple[NDArray, NDArray, NDArray, NDArray]:
-    """Return (m, 3) unit normals, (m, 3) angles, (m, 2) bounds of the normals' errors, and a mask
-    of known normals. points: (m, 3, 3) corners.
+    """Return (m, 3) unit normals, (m, 3) angles, (m, 2) bounds of the normals' turns by rounding
+    and by storing, rad, and a mask of known normals.
+
+    points: (m, 3, 3) corners, each at most `stored` off.
     """
     sides = points[:, [1, 2, 0]] - points
     normal = np.cross(sides[:, 0], sides[:, 1])
@@ -297,5 +313,7 @@ def corner_geometry(
     double = np.where(solid, double, 1.0)
     dots = -np.einsum("mki,mki->mk", sides, sides[:, [2, 0, 1]])
     angles = np.arctan2(double[:, None], dots)
+    # Corners off by ± stored along the normal N, |N| = double, change it by stored |±a ±b ±c|, with
+    # sides a + b + c = 0: at most twice the longest. Its products are off by some 8 roundings.
     noise = np.stack([8.0 * U * longest**2 / double, 2.0 * stored * longest / double], axis=1)
     return normal / double[:, None], angles, noise, solid

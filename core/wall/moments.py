@@ -66,6 +66,7 @@ def wall_moments(wall: OffsetSolid, inward: float, outward: float, order: int) -
             [points[start], points[stop], points[stop + count], points[start + count]]
         )
         moments = moments + _strip_moments(corners - wall.about, wall.about, order)
+    # The largest |x - about| by axis; the factor covers the rounding of the bound itself.
     reach = (wall.reach[0] + max(inward, outward) * wall.reach[1]) * (1.0 + 1e-9)
     largest = np.multiply.reduce(reach ** monomials(order), axis=1)
     rounded, moved = (
@@ -83,8 +84,11 @@ def wall_moments(wall: OffsetSolid, inward: float, outward: float, order: int) -
 
 
 def _strip_moments(corners: Array, about: Array, order: int) -> Moments:
-    """Return moments of the cones from `about` over bilinear patches, (4, k, 3) relative to it, by
-    an exact rule.
+    """Return moments of the cones from `about` over bilinear patches, (4, k, 3) corners relative to
+    it, by an exact rule.
+
+    A moment of degree n is the integral of x^α and the flux over the patch, divided by n + 3: a
+    polynomial over the unit square, of degree order + 2 at most in each variable.
     """
     table = monomials(order)
     sums = np.zeros((2, len(table)))
@@ -125,5 +129,6 @@ def _strip_moments(corners: Array, about: Array, order: int) -> Moments:
             values = powers[p, :, 0] * powers[q, :, 1] * powers[r, :, 2]
             sums[:, number] += np.add.reduce(values * fluxes, axis=1)
     raw, size = sums / (table.sum(axis=1) + 3.0)
+    # Roundings in units u: of the powers, of corners and flux, and of the sums.
     units = (8.0 * table.sum(axis=1) + 64.0 + corners.shape[1] * len(weight) / step) * U
     return Moments(raw, about, Measure.VOLUME, units * size)

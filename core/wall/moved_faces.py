@@ -20,11 +20,11 @@ from ..mesh import (
     tree_of_all,
     triangle_areas,
 )
-from ..numerics import Array, Floats, Index, Integers, Mask, connected_components
+from ..numerics import Array, Floats, Index, Integers, Mask, connected_components, run_starts
 
 ROUNDING = 1e-9  # relative to the size: nearer points are on a plane
-STEP = 1e-7  # relative to the size: places before and behind a piece
-NEARER = 1e-6  # relative to the moves, and a difference of directions
+STEP = 1e-7  # relative to the size: the distance of places before and behind a piece from it
+NEARER = 1e-6  # share of the depths that places may be nearer; directions are rounded to it
 MAX_PAIRS = 3_000_000  # pairs of triangles whose boxes overlap
 PAIRS_PER_BLOCK = 1 << 16
 MAX_DIVISIONS = 3_000_000  # tests of pieces of triangles against others that cross them
@@ -37,10 +37,12 @@ def part_behind(
     triangles: Integers,
     depths: tuple[float, float, float],
 ) -> Surface | None:
-    """Return the boundary of the part, triangles with points of their own; None if too many
-    triangles are near each other.
+    """Return the boundary of the part of a body behind its moved faces; None if too many triangles
+    are near each other.
 
-    depths: along the ground, below the top and above the bottom, at which places belong to it.
+    points, moved: (n, 3) corners of the (m, 3) triangles before and after the move. depths: the
+    least distances of the part from the body's surface: sideways, below its top, and above its
+    bottom.
     """
     size = float(np.ptp(points, axis=0).max())
     tolerance = ROUNDING * size
@@ -62,7 +64,8 @@ def part_behind(
     crossings = pairs[:, divides]
     is_divided = np.zeros(len(corners), bool)
     is_divided[crossings[0]] = True
-    # A patch is of neighbors that nothing else meets: what its largest triangle shows, all do.
+    # A patch consists of neighbors that no other triangle meets. So all of its triangles bound the
+    # part if its largest one does. Triangles with a common side do not count as meeting.
     shared = (triangles[pairs[0], :, None] == triangles[pairs[1], None]).sum(axis=(1, 2))
     is_apart = np.ones(len(corners), bool)
     is_apart[pairs[0, meets & (shared < 2)]] = False
@@ -71,12 +74,13 @@ def part_behind(
     order = np.argsort(triangle_areas(moved, triangles))
     largest = np.zeros(patch_count, np.intp)
     largest[patch[order]] = order  # the last of equal indices wins
-    largest = largest[~is_divided[largest]]
+    tested = largest[~is_divided[largest]]  # a divided triangle is a patch, tested by its pieces
     pieces = _divide_along(corners, units, crossings, tolerance)
     if pieces is None:
         return None
-    cells = np.concatenate([corners[largest], pieces[0]])
-    owners = np.concatenate([largest, pieces[1]])
+    piece_corners, piece_owners = pieces
+    cells = np.concatenate([corners[tested], piece_corners])
+    owners = np.concatenate([tested, piece_owners])
     middles, steps = cells.mean(axis=1), STEP * size * units[owners]
     # Places before all cells, then places behind them.
     sides = np.concatenate([middles + steps, middles - steps])
@@ -94,13 +98,13 @@ def part_behind(
         is_flat = np.abs(np.einsum("ei,ei->e", *units[beside])) > 1.0 - ROUNDING
         group = connected_components(len(corners), *beside[:, is_flat].astype(np.intp))[0]
         for cell in lying_together:
-            is_bound[cell] = _counts(corners, units, group, owners[cell], middles[cell], size)
+            is_bound[cell] = _is_counted(corners, units, group, owners[cell], middles[cell], size)
     is_bounding_patch = np.zeros(patch_count, bool)
-    is_bounding_patch[patch[largest]] = is_bound[: len(largest)]
+    is_bounding_patch[patch[tested]] = is_bound[: len(tested)]
     is_kept = is_bounding_patch[patch]
     if not is_divided.any():
         return Surface(moved, triangles[is_kept])
-    kept_pieces = cells[len(largest) :][is_bound[len(largest) :]]
+    kept_pieces = piece_corners[is_bound[len(tested) :]]
     boundary = np.concatenate([corners[is_kept & ~is_divided], kept_pieces])
     return Surface(boundary.reshape(-1, 3), np.arange(3 * len(boundary)).reshape(-1, 3))
 
@@ -113,10 +117,10 @@ def _divide_along(
     """
     pieces = [np.zeros((0, 3, 3))]
     owners = [np.zeros(0, np.intp)]
-    order = np.argsort(crossings[0], kind="stable")
-    triangles, starts = np.unique(crossings[0][order], return_index=True)
+    divided, dividing = crossings[:, np.argsort(crossings[0], kind="stable")]
+    starts = run_starts(divided)
     test_count = 0
-    for triangle, planes in zip(triangles, np.split(crossings[1][order], starts[1:])):
+    for triangle, planes in zip(divided[starts], np.split(dividing, starts[1:])):
         cells = corners[triangle][None]
         for plane in planes:
             count = len(cells)
@@ -145,19 +149,21 @@ def _unit_normals(corners: Array, size: float) -> Array:
 
 
 def _find_meetings(corners: Array, units: Array, pairs: Index, tolerance: float) -> Mask:
-    """Return whether pairs of triangles in two planes meet along a segment, and whether the plane
-    of the second one divides the first one there, (2, k).
+    """Return a (2, k) mask: whether pairs of triangles in two planes meet along a segment, and
+    whether also the plane of the second triangle divides the first.
+
+    pairs: (2, k) indices of the (m, 3, 3) corners and (m, 3) units.
     """
     first, second = pairs
     along = np.cross(units[first], units[second])
     along /= np.maximum(np.linalg.norm(along, axis=1), np.finfo(float).tiny)[:, None]
     # The ends of each triangle's segment in the other one's plane, along the common line.
     low, high = np.empty((2, 2, len(first)))
-    divided = []
-    for k, (one, other) in enumerate([(first, second), (second, first)]):
-        height = np.einsum("kci,ki->kc", corners[one] - corners[other, :1], units[other])
+    is_divided = np.empty((2, len(first)), bool)
+    for k, (triangle, other) in enumerate([(first, second), (second, first)]):
+        height = np.einsum("kci,ki->kc", corners[triangle] - corners[other, :1], units[other])
         height[np.abs(height) <= tolerance] = 0.0
-        places = np.einsum("kci,ki->kc", corners[one], along)
+        places = np.einsum("kci,ki->kc", corners[triangle], along)
         next_height = np.roll(height, -1, axis=1)
         crosses = height * next_height < 0.0
         share = height / np.where(crosses, height - next_height, 1.0)
@@ -165,9 +171,9 @@ def _find_meetings(corners: Array, units: Array, pairs: Index, tolerance: float)
         is_end = crosses | (height == 0.0)
         low[k] = np.where(is_end, places, np.inf).min(axis=1)
         high[k] = np.where(is_end, places, -np.inf).max(axis=1)
-        divided.append(crosses.any(axis=1))
+        is_divided[k] = crosses.any(axis=1)
     meets = high.min(axis=0) - low.max(axis=0) > tolerance
-    return np.stack([meets, meets & divided[0]])
+    return np.stack([meets, meets & is_divided[0]])
 
 
 def _divide(cells: Array, height: Array) -> Array:
@@ -176,6 +182,7 @@ def _divide(cells: Array, height: Array) -> Array:
     height: (k, 3), of the corners above the plane; at most one of a triangle is zero.
     """
     signs = np.sign(height)
+    # The tip is the corner alone on its side: that below if two are above, else that above.
     lone = np.where(signs.sum(axis=1) > 0.0, -1.0, 1.0)
     order = (np.argmax(signs == lone[:, None], axis=1)[:, None] + np.arange(3)) % 3
     tip, left, right = np.take_along_axis(cells, order[..., None], 1).swapaxes(0, 1)
@@ -196,8 +203,11 @@ def _belong(
     across: Array,
     depths: tuple[float, float, float],
 ) -> Mask:
-    """Return whether places are in the body, and nowhere nearer to its surface than depths, along
-    unit vectors `across` their pieces and along the normals of the largest areas.
+    """Return an (e,) mask of places in the body that are nowhere nearer to its surface than the
+    `depths` of `part_behind`, by rays.
+
+    Rays run both ways along the (e, 3) unit vectors `across` and along the body's normals with the
+    largest areas.
     """
     corners = points[triangles]
     tree = tree_of_all(corners.reshape(-1, 3), np.arange(3 * len(corners)).reshape(-1, 3))
@@ -208,21 +218,26 @@ def _belong(
     area = np.bincount(group.ravel(), triangle_areas(points, triangles))
     ways = ways[np.argsort(-area)[:RAYS]] * NEARER
     ways = ways[ways.any(axis=1)]
-    wall, *heights = np.maximum(depths, np.finfo(float).tiny) * (1.0 - NEARER)
+    wall, top, bottom = np.maximum(depths, np.finfo(float).tiny) * (1.0 - NEARER)
     ways /= np.linalg.norm(ways, axis=1)[:, None]
     for ray in [*ways, *-ways, across, -across]:
         rays = np.broadcast_to(ray, places.shape)
-        height = np.where(rays[:, 2] < 0.0, heights[1], heights[0])
+        height = np.where(rays[:, 2] < 0.0, bottom, top)
+        # The distance between the depth sideways and that along z, by the ray's direction.
         nearest = 1.0 / (np.hypot(rays[:, 0], rays[:, 1]) / wall + np.abs(rays[:, 2]) / height)
         reach = float(nearest.max(initial=0.0))
         belong &= tree.first_hits(places, rays, reach)[0] > nearest
     return belong
 
 
-def _counts(
+def _is_counted(
     corners: Array, units: Array, group: Index, owner: int, place: Array, size: float
 ) -> bool:
-    """Return whether the group of a triangle is the first of those at a place that counts there."""
+    """Return whether the triangle `owner` bounds the part at a place where flat sheets coincide.
+
+    Sheets, the groups of flat neighbors, are taken one after the other. A sheet counts if it
+    changes the number of sheets that face as the triangle, kept between 0 and 1.
+    """
     away = corners - place
     sides = np.cross(away, np.roll(away, -1, axis=1)) @ units[owner]
     covers = (np.abs(away @ units[owner]) <= ROUNDING * size).all(axis=1)

@@ -28,17 +28,18 @@ from .directions import (
 from .findings import PRINT_UNFIT
 from .moved_faces import part_behind
 
-MAX_SAMPLED = 20_000  # triangles with several samples of their thickness; of others, the middle
+MAX_SAMPLED = 20_000  # with more triangles, only the middle of each is sampled
 SAMPLES = np.array([[1, 1, 1], [4, 1, 1], [1, 4, 1], [1, 1, 4]]) / [[3.0], [6.0], [6.0], [6.0]]
-LEAST_FACING = 0.5  # cosine between normals of opposite sides
-ALWAYS = 5_000  # fewer triangles are too few samples of thin places
+LEAST_FACING = 0.5  # least cosine between the normals of opposite sides, one of them reversed
+ALWAYS = 5_000  # with fewer triangles, samples may miss thin places: `part_behind` looks always
 
 
 class PrintCore(NamedTuple):
     """The surface of a core; its signed volume is not positive if there is none.
 
-    minimum, maximum: the moves of faces at their corners, in multiples of what they should be.
-    misplaced: the volume that unequal moves add or move by the size of the body.
+    minimum, maximum: the least and largest move of a face at a corner, over its intended move.
+    misplaced: the volume that unequal moves add; or, if larger, the first moment that they move,
+    over the size of the body.
     """
 
     surface: Surface
@@ -58,9 +59,9 @@ def find_core(surface: Surface, wall: float, top: float, bottom: float) -> Print
     corners = points[triangles]
     normals, angles, _, solid = corner_geometry(corners)
     layers = np.where(normals[:, 2] > 0.0, top, bottom) * np.abs(normals[:, 2])
-    moves = np.maximum(wall * np.hypot(normals[:, 0], normals[:, 1]), layers)
+    sideways = wall * np.hypot(normals[:, 0], normals[:, 1])
+    moves = np.where(solid, np.maximum(sideways, layers), 0.0)
     weights = np.where(solid[:, None], angles, 0.0)
-    moves = np.where(solid, moves, 0.0)
     steps = _steps(len(points), triangles, normals, weights, moves)
     depths = np.einsum("mi,mki->mk", normals, steps[triangles])
     ratios = depths[moves > 0.0] / moves[moves > 0.0, None]
@@ -73,21 +74,26 @@ def find_core(surface: Surface, wall: float, top: float, bottom: float) -> Print
         nearest = wall * least, top * least, bottom * least
         core = part_behind(points, core.points, triangles, nearest)
         if core is None:
-            fault = "it has too many faces near each other. Use Decimate"
-            raise ReadError(PRINT_UNFIT, fault=fault)
+            raise ReadError(
+                PRINT_UNFIT, fault="it has too many faces near each other. Use Decimate"
+            )
     return PrintCore(
         core, least, float(ratios.max(initial=1.0)), max(abs(float(unequal.sum())), shifted)
     )
 
 
 def _steps(count: int, triangles: Integers, normals: Array, weights: Array, moves: Array) -> Array:
-    """Return the (count, 3) inward steps of points whose triangles' planes move."""
+    """Return the (count, 3) inward steps of points whose triangles' planes move.
+
+    normals: (m, 3). weights: (m, 3) angles at the corners. moves: (m,) along the normals.
+    """
     corner = triangles.ravel()
     weight = weights.ravel()
     normals = np.repeat(normals, 3, axis=0)
     moves = np.repeat(moves, 3)
 
     def total(values: NDArray) -> Array:
+        """Return the (count,) weighted sums over the corners at each point."""
         return np.bincount(corner, weight * values, count).astype(np.float64)
 
     system = np.empty((count, 3, 3))
@@ -98,6 +104,9 @@ def _steps(count: int, triangles: Integers, normals: Array, weights: Array, move
     values, axes = np.linalg.eigh(system)
 
     def solved(least: float) -> tuple[Array, Array]:
+        """Return (count, 3) steps in the axes with eigenvalues above `least`, relative to the
+        largest, and (count,) root sums of squared deviations of the moves.
+        """
         known = values > least * values[:, 2:]
         inverse = np.where(known, 1.0 / np.where(known, values, 1.0), 0.0)
         steps = np.einsum("nij,nj,nkj,nk->ni", axes, inverse, axes, right)
@@ -112,7 +121,12 @@ def _steps(count: int, triangles: Integers, normals: Array, weights: Array, move
 
 
 def _meet(corners: Array, normals: Array, moves: Array) -> bool:
-    """Return whether opposite triangles, (m, 3, 3), move to each other or farther."""
+    """Return whether two opposite triangles, of (m, 3, 3) corners, meet or pass each other if each
+    moves inward by its (m,) move.
+
+    Along the first triangle's normal, the second one's plane comes nearer by its move over the
+    cosine between both.
+    """
     samples = SAMPLES if len(corners) <= MAX_SAMPLED else SAMPLES[:1]
     starts = np.einsum("sk,mki->msi", samples, corners).reshape(-1, 3)
     triangle = np.repeat(np.arange(len(corners)), len(samples))

@@ -44,9 +44,8 @@ TOUCHING_RTOL = 1e-6  # Relative to the size: nearer sides touch.
 MAX_UNORIENTED_SHARE = (
     0.01  # Share of the area: above it, too many faces have lost their direction for a wall.
 )
-JACOBIAN_ROUNDINGS = (
-    20.0  # rounding of a Jacobian, in units u, relative to the product of the lengths in it
-)
+# Rounding of a Jacobian, in units u, relative to the product of the lengths in it.
+JACOBIAN_ROUNDINGS = 20.0
 INNER_NODES = (0.10810301816807023, 0.81684757298045851)
 OUTER_NODES = (0.44594849091596489, 0.091576213509770743)
 NODES = np.concatenate(
@@ -101,12 +100,14 @@ class OffsetSolid:
         for move, limit in ((inward, self.inward), (outward, self.outward)):
             if not (move < limit or move == 0.0):
                 raise ValueError("offset folds over")
+        # The integrals of s^0 to s^5 over the moves outward and inward.
         degree = np.arange(1, COEFFICIENT_COUNT + 1)
         up = outward**degree / degree
         down = -((-inward) ** degree) / degree
         both = outward**degree / degree + inward**degree / degree
         raw = self.coefficients @ (up + down)
         error = self.rounding_error @ both + 16.0 * U * (np.abs(self.coefficients) @ both)
+        # A second bound by storing: no point is farther from `about` than `reach`, by axis.
         swept = sum(self.swept_bound @ s ** np.arange(4) for s in (inward, outward))
         reach = self.reach[0] + max(inward, outward) * self.reach[1]
         moved = swept * np.multiply.reduce(reach ** monomials(ORDER), axis=1)
@@ -123,7 +124,6 @@ class OffsetSolid:
         """Return whether the wall's sides go through each other or themselves, or walls of separate
         parts overlap.
         """
-        count = len(self.points)
         wall = self.surface(inward, outward)
         shell = np.repeat([0, 1], len(self.triangles))
         tolerance = min(
@@ -135,7 +135,7 @@ class OffsetSolid:
             wall.triangles[: len(shell)],
             shell,
             np.array(pairs),
-            np.tile(np.arange(count), 2),
+            np.tile(np.arange(len(self.points)), 2),
             tolerance,
         ) or self._overlaps(wall, tolerance)
 
@@ -161,6 +161,7 @@ class OffsetSolid:
         part, number = connected_components(
             len(self.points), self.triangles.ravel(), np.roll(self.triangles, 1, axis=1).ravel()
         )
+        # The wall has each point twice: at the inner side, and len(self.points) later at the outer.
         owner = part[wall.triangles[:, 0] % len(self.points)].astype(np.intp)
         shells = sort_components(wall.points, wall.triangles, owner, number)
         solid = shells.volume > 0.0
@@ -243,27 +244,30 @@ def offset_solid(surface: Surface) -> OffsetSolid:
     about = low / 2.0 + high / 2.0
     directions = offset_directions(points, triangles, stored)
     vectors = directions.vectors
-    reach = np.abs(points - about).max(axis=0) * (1.0 + 4.0 * U), np.abs(vectors).max(axis=0)
+    # By axis, the farthest point from `about`, up to rounding, and the longest direction.
+    point_reach = np.abs(points - about).max(axis=0) * (1.0 + 4.0 * U)
+    vector_reach = np.abs(vectors).max(axis=0)
     sums = np.zeros((20, COEFFICIENT_COUNT))
     bounds = np.zeros((3, 7))
     swept_rounding = np.zeros(4)
     swept_bound = np.zeros(4)
     jacobians, jacobian_errors, doubled_areas = [], [], []
-    # How far rounding moves a point, and a direction.
-    rounded = 4.0 * U * float(np.linalg.norm(reach[0]))
-    turned = 4.0 * U * float(np.linalg.norm(reach[1]))
+    # How far rounding moves a point, and a direction: some 4 units of the largest coordinates.
+    rounded = 4.0 * U * float(np.linalg.norm(point_reach))
+    turned = 4.0 * U * float(np.linalg.norm(vector_reach))
     for part, is_known in zip(blocks(triangles), blocks(directions.has_normal)):
         prisms = _Prisms(points[part], about, vectors[part])
         sums += prisms.sums()
+        # (2, k) of each triangle's worst corner, by rounding and by storing.
         slide = directions.tangential_error[:, part].max(axis=2)
         lift = directions.normal_error[:, part].max(axis=2)
         if stored:
-            # such a triangle should have moved by one
+            # A triangle without a known normal moved by up to `far`, and should have moved by 1.
             lift[1] += np.where(is_known, 0.0, 1.0 + prisms.far)
         bounds += prisms.bounds(slide, lift, stored)
         swept_rounding += prisms.swept(slide[0] + turned, lift[0] + turned, rounded)
         swept_bound += prisms.swept(slide[1], lift[1], stored)
-        jacobians.append(prisms.own_size)
+        jacobians.append(prisms.jacobians)
         jacobian_errors.append(JACOBIAN_ROUNDINGS * U * prisms.sizes())
         doubled_areas.append(prisms.double)
     jacobian = np.concatenate(jacobians, axis=-1)
@@ -282,7 +286,7 @@ def offset_solid(surface: Surface) -> OffsetSolid:
     )
     height = jacobian[0, :, solid] / double[solid, None]
     uneven = np.abs(height - 1.0) > UNEVEN_RTOL
-    error, moved = _propagate_error(bounds, reach, len(jacobians), stored)
+    error, moved = _propagate_error(bounds, point_reach + stored, vector_reach, len(jacobians))
     slides = directions.tangential_error.max(axis=1) + directions.normal_error.max(axis=1)
     swept_rounding += _swept_by_strips(
         points, vectors, triangles, rounded, slides[0] + 2.0 * turned
@@ -290,6 +294,7 @@ def offset_solid(surface: Surface) -> OffsetSolid:
     swept_bound += _swept_by_strips(points, vectors, triangles, stored, slides[1])
 
     def first_fold(limits: NDArray) -> int:
+        """Return the triangle with the least of the solid triangles' limits, -1 if none folds."""
         if not np.isfinite(limits.min(initial=np.inf)):
             return -1
         return int(solid_triangles[np.argmin(limits)])
@@ -304,7 +309,7 @@ def offset_solid(surface: Surface) -> OffsetSolid:
         input_error=moved,
         swept_bound=swept_bound,
         swept_rounding=swept_rounding,
-        reach=np.array(reach),
+        reach=np.array([point_reach, vector_reach]),
         outward=outward.min(initial=np.inf),
         inward=inward.min(initial=np.inf),
         outward_at=first_fold(outward),
@@ -317,7 +322,11 @@ def offset_solid(surface: Surface) -> OffsetSolid:
 
 
 class _Prisms:
-    """Prisms swept by (m, 3, 3) corners along their (m, 3, 3) directions; columns are prisms."""
+    """Prisms swept by (m, 3, 3) corners along their (m, 3, 3) directions; columns are prisms.
+
+    `double`, `long`, `turned_length`, `far`: (m,) doubled areas, and the largest lengths of edges,
+    of changes of edges per s, and of directions.
+    """
 
     def __init__(self, points: NDArray, about: NDArray, vectors: NDArray):
         a, b, c = points.transpose(1, 2, 0)  # corner, axis, prism
@@ -325,13 +334,13 @@ class _Prisms:
         self.points = points.transpose(1, 2, 0) - about[:, None]
         self.edges = (b - a, c - a)
         self.turns = (v - u, w - u)
-        # N(s) = plain + s (first + second) + s² turned
-        plain, first, second, turned = (
+        # N(s) = (e + s f) × (e' + s f'), by powers of s
+        plain, plain_turned, turned_plain, turned = (
             np.stack(cross(first, second)) for first in (b - a, v - u) for second in (c - a, w - u)
         )
-        self.normals = plain, first + second, turned
-        # Axes: power of s, corner, prism.
-        self.own_size = np.array(
+        self.normals = plain, plain_turned + turned_plain, turned
+        # N(s)·d_k. Axes: power of s, corner, prism.
+        self.jacobians = np.array(
             [
                 [np.einsum("im,im->m", normal, vector) for vector in self.vectors]
                 for normal in self.normals
@@ -344,14 +353,17 @@ class _Prisms:
         )
 
     def sizes(self) -> Array:
-        """Return (3, m) bounds of the coefficients of J."""
+        """Return (3, m) bounds of the coefficients of J: products of the lengths in them."""
         return (
             np.array([self.long**2, 2.0 * self.long * self.turned_length, self.turned_length**2])
             * self.far
         )
 
     def sums(self) -> Array:
-        """Return the (20, 6) coefficients of the moments."""
+        """Return the (20, 6) coefficients of the moments, in the order of `monomials`.
+
+        The table has J x^α at all nodes, (|α| + 3, nodes), by powers of s: J x^β times x + s d.
+        """
         sums = np.zeros((monomial_count(ORDER), COEFFICIENT_COUNT))
         count = self.points.shape[2]
         place, step = (
@@ -359,7 +371,7 @@ class _Prisms:
             for corners in (self.points, self.vectors)
         )
         table = {
-            (0, 0, 0): (np.einsum("nk,pkm->pnm", NODES, self.own_size) * WEIGHTS[:, None]).reshape(
+            (0, 0, 0): (np.einsum("nk,pkm->pnm", NODES, self.jacobians) * WEIGHTS[:, None]).reshape(
                 3, 6 * count
             )
         }
@@ -376,51 +388,58 @@ class _Prisms:
         return sums
 
     def bounds(self, tangential_error: NDArray, normal_error: NDArray, stored: float) -> Array:
-        """Return (3, 7) coefficients in s, summed over the prisms: a row of sizes of J, and two
-        rows of changes.
+        """Return (3, 7) first-order bounds, as coefficients in s, of integrals over all prisms: of
+        |J|, of its changes by rounding, and of its changes by storing.
 
-        The row of sizes is three coefficients and four zeros. A row of changes is three
-        coefficients of the change of J, and four of J's size times the move of x. The directions
-        move by the first row of the errors; in the last row by the second row of the errors, and
-        the points by `stored`.
+        Columns: three coefficients of |J|, or of the change of J; four of |J| times the move of x,
+        zero in the first row. tangential_error, normal_error: (2, m) moves of the directions d, in
+        all and along the normal, by rounding and by storing; storing also moves points by `stored`.
+
+        Ends that move by ε change an edge e of J = (e + s f) × (e' + s f')·d by 2 ε, and f by twice
+        the move δ of the directions. Either of both edges may change: hence 4 ε and 4 δ. The change
+        of d itself counts N(s)·δ: at s = 0 by the normal part of δ, else by |N(s)| |δ|. x = p + s d
+        moves by ε + s δ. A triangle of the nodes has the area 1/2.
         """
         sizes = self.sizes()
-        coefficients = [np.zeros((7, len(self.double)))]
-        coefficients[0][:3] = sizes
+        coefficients = [np.pad(sizes, ((0, 4), (0, 0)))]
         long = self.long
         turned = self.turned_length
         far = self.far
-        for delta, along, step in zip(tangential_error, normal_error, (0.0, stored)):
+        flat = self.double * far  # sharper than sizes[0]
+        for slide, lift, step in zip(tangential_error, normal_error, (0.0, stored)):
             change = [
-                4.0 * long * step * far + self.double * along,
-                (4.0 * turned * step + 4.0 * long * delta) * far + 2.0 * long * turned * delta,
-                4.0 * turned * delta * far + turned**2 * delta,
+                4.0 * long * step * far + self.double * lift,
+                (4.0 * turned * step + 4.0 * long * slide) * far + 2.0 * long * turned * slide,
+                4.0 * turned * slide * far + turned**2 * slide,
             ]
-            flat = self.double * far
             place = [
                 flat * step,
-                flat * delta + sizes[1] * step,
-                sizes[1] * delta + sizes[2] * step,
-                sizes[2] * delta,
+                flat * slide + sizes[1] * step,
+                sizes[1] * slide + sizes[2] * step,
+                sizes[2] * slide,
             ]
             coefficients.append(np.array(change + place))
         return np.add.reduce(np.array(coefficients), axis=2) / 2.0
 
     def swept(self, tangential_error: NDArray, normal_error: NDArray, stored: float) -> Array:
-        """Return (4,) coefficients in s of the volume swept as points and directions move by their
-        errors.
+        """Return (4,) coefficients in s of a bound of the volume that one side sweeps: as its
+        points move by `stored`, and its directions by (m,) errors, in all and along the normals.
+
+        A triangle sweeps half of N(s) times its move. The move of the directions counts by the part
+        of N(s) along the normal at s = 0, and by the rest.
         """
         unit = self.normals[0] / np.where(self.double > 0.0, self.double, 1.0)
         height = [np.einsum("im,im->m", normal, unit) for normal in self.normals]
-        rest = [normal - along * unit for normal, along in zip(self.normals, height)]
+        rest = [normal - part * unit for normal, part in zip(self.normals, height)]
         along = np.abs(height)
         size, across = (
             [np.sqrt(np.einsum("im,im->m", vector, vector)) for vector in vectors]
             for vectors in (self.normals, rest)
         )
+        # The rest is a difference of near equals: some 8 roundings.
         across = [a + 8.0 * U * b for a, b in zip(across, size)]
         coefficients = [
-            2.0 * size[0] * stored,
+            2.0 * size[0] * stored,  # twice the first order, as a margin
             size[1] * stored + size[0] * normal_error,
             size[2] * stored + along[1] * normal_error + across[1] * tangential_error,
             along[2] * normal_error + across[2] * tangential_error,
@@ -431,8 +450,10 @@ class _Prisms:
 def _swept_by_strips(
     points: NDArray, vectors: NDArray, triangles: NDArray, stored: float, slide: float
 ) -> Array:
-    """Return (4,) coefficients in s of the volume that the strips along the boundary sweep, as
-    `_Prisms.swept`.
+    """Return (4,) coefficients in s of the volume that the strips along the boundary sweep, if
+    points move by `stored` and directions by `slide`, both lengths.
+
+    A strip of the length of its side is `far` wide per s.
     """
     start, stop = find_edges(triangles).boundary_ends(triangles)
     ends = [np.linalg.norm(array[stop] - array[start], axis=1) for array in (points, vectors)]
@@ -442,18 +463,20 @@ def _swept_by_strips(
 
 
 def _propagate_error(
-    bounds: NDArray, reach: tuple[NDArray, NDArray], blocks: int, stored: float
+    bounds: NDArray, point_reach: NDArray, vector_reach: NDArray, blocks: int
 ) -> tuple[Array, Array]:
-    """Return (20, 6) and (20, 6) `rounding_error` and `input_error` from the sums of
-    `_Prisms.bounds`.
+    """Return (20, 6) and (20, 6) `rounding_error` and `input_error` of the moments' coefficients.
+
+    bounds: sums of `_Prisms.bounds` over `blocks` blocks. point_reach, vector_reach: (3,) largest
+    |p - about| and |d| by axis. J x^α changes by the change of J times x^α, and by J times the move
+    of x times Σ α_i x^(α - e_i).
     """
-    place = reach[0] + stored
-    step = reach[1]
 
     def times(row: NDArray, exponents: list[int]) -> Array:
+        """Return the coefficients in s of a row's polynomial times the largest |x^α|."""
         for axis, power in enumerate(exponents):
             for _ in range(power):
-                row = np.convolve(row, (place[axis], step[axis]))
+                row = np.convolve(row, (point_reach[axis], vector_reach[axis]))
         return row
 
     error, moved = np.zeros((2, monomial_count(ORDER), COEFFICIENT_COUNT))
