@@ -356,6 +356,7 @@ def _split(previous: NDArray, new: NDArray, following: NDArray, time: float) -> 
     shares = np.minimum(1.0, span / np.maximum(lengths, SAME_TIME))  # Blender shortens long handles
     points[[1, 2]] = points[[0, 3]] + shares[:, None] * (points[[1, 2]] - points[[0, 3]])
     low, high = 0.0, 1.0
+    levels = [points]
     # Bisection by the time of the point on the curve; 60 halvings are finer than float64. The last
     # one leaves its levels: of 4, 3, 2 and 1 points, of which the single one is on the curve.
     for _ in range(60):
