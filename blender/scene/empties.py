@@ -119,7 +119,8 @@ def _new_empty(context: Context, obj: Object) -> Object:
 def _move(
     empty: Object, body: SnapTarget, parent: Object | None, size: float
 ) -> Generator[None, Depsgraph, bool]:
-    """Move the empty to the body's frame; return whether it was elsewhere.
+    """Parent the empty, move it to the body's frame and give it a size of display, relative to the
+    body's; return whether it was elsewhere, else leave it as it is.
 
     EditRefusedError if it cannot be there.
     """
@@ -143,7 +144,8 @@ def _move(
         empty.matrix_world = Matrix(frame)
         yield
         # A curve also lays its children along its path, so that the parent inverse does not undo
-        # the whole effect of the parent.
+        # the whole effect of the parent. World = effect · basis, and the effect ends with the
+        # parent inverse: times the inverse of the effect, it leaves world = basis.
         if parent is not None and not _is_there(empty, body):
             parent_effect = np.linalg.solve(basis(empty).T, world(empty).T).T
             inverse = np.array(empty.matrix_parent_inverse, np.float64)

@@ -138,11 +138,13 @@ def _cut_fill(
 ) -> CutFill:
     """Return cut and fill of a body against a height, its rim or the object of a name.
 
+    against_object: None without Blender, where names of objects are refused before.
+
     Raises MeasureError.
     """
     if not body.has_surface:
         raise MeasureError(CUT_FILL_UNAVAILABLE, fault=SURFACE_NEEDED)
-    surface = join_surfaces([*body.surfaces(True)])
+    surface = join_surfaces([*body.surfaces(sheets=True)])
     if isinstance(against, str) and against != RIM and against_object is not None:
         return against_object(against, surface)
     return surface_cut_fill(surface, None if against == RIM else float(against))

@@ -105,7 +105,7 @@ def _place_solids(solids: Sequence[tuple[SolidIntegrals, Array]]) -> _Images:
     images_of_solids = []
     corner_count = component_count = place_count = 0
     displacement = 0.0
-    for number, (solid, matrices) in enumerate(solids):
+    for solid_index, (solid, matrices) in enumerate(solids):
         parts = solid.parts()
         linear = matrices[:, :3, :3]
         corners = parts.points.astype(np.float64) @ linear.transpose(0, 2, 1)
@@ -122,8 +122,9 @@ def _place_solids(solids: Sequence[tuple[SolidIntegrals, Array]]) -> _Images:
                 corners.reshape(-1, 3),
                 (faces + first_corner[:, None, None]).reshape(-1, 3),
                 (parts.part + first_component[:, None]).ravel(),
-                np.stack([np.full_like(own_components, number), own_components], axis=1),
+                np.stack([np.full_like(own_components, solid_index), own_components], axis=1),
                 np.repeat(place_count + copies, parts.number),
+                # parts are the mesh's components, in their order
                 np.tile(solid.oriented.solid & ~solid.oriented.mesh.open, len(copies)),
             )
         )
@@ -167,6 +168,8 @@ def compare_places(solids: Sequence[tuple[SolidIntegrals, Array]]) -> PlaceCompa
     nested = nested[components.volume[nested] > 0.0]
     overlapping = relations.intersecting  # (k, 2)
     overlapping = overlapping[place[overlapping[:, 0]] != place[overlapping[:, 1]]]
+    # An area: pieces that share it are at most `size` deep, so that they share less than the
+    # negligible part of the volume.
     negligible = verdict.NEGLIGIBLE * components.volume.sum() / size
     return PlaceComparison(
         images.owner[nested],

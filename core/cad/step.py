@@ -274,6 +274,7 @@ class StepReader:
             return 0.0
         name, factor = parts["CONVERSION_BASED_UNIT"]
         if name.upper().startswith("DEG"):
+            # Files state the factor of a degree, the only such unit, with few digits.
             return math.radians(1.0)
         value, unit = self._measure(factor)
         return value * self._size(unit, depth + 1)
@@ -340,7 +341,11 @@ class StepReader:
                 self._add(item, owner, matrix, len(solids) == 1)
 
     def _add(self, number: int, owner: int, matrix: NDArray, is_alone: bool) -> None:
-        """Add a solid, in place, unless another representation has put it there."""
+        """Add a solid, in place, unless another representation has put it there.
+
+        A solid is read once for all its places; one that cannot be read whole, which `_noting` has
+        reported, is kept as no faces.
+        """
         if number not in self._solids:
             self._is_whole = True
             self._shapes.gap = 0.0
@@ -359,6 +364,8 @@ class StepReader:
         self._count(len(faces))
         label = self._attribute(number, 0)
         scale = float(np.linalg.norm(matrix[:3, :3], 2))
+        # The numbers of a file are rounded where they stand: in the solid's own place, and in the
+        # matrix.
         reach = max(_reach(faces), scale * _reach(local))
         styled = [number, *np.ravel(self._attribute(number, 1)).tolist(), owner]
         representation = "#{}=SHAPE_REPRESENTATION('',(#{}),#{});\n".format(

@@ -260,9 +260,12 @@ def _kernel_width(half: int, tolerance: float, divided: bool) -> int:
     """Return the least width of the kernel for an error of tolerance Σ |c|, after division by |k|
     if `divided`.
     """
-    k = np.arange(1, half + 1) if divided else np.ones(half)
-    for width in WIDTHS:  # the errors of three axes add up
-        if (3.0 * np.maximum.accumulate(aliasing(half, width))[1:] / k).max() <= tolerance:
+    # A vector k with its largest component at an index has at most the largest error up to this
+    # index along each axis, and at least this length. At k = 0 nothing is divided.
+    least_length = np.arange(1, half + 1) if divided else np.ones(half)
+    for width in WIDTHS:
+        axis_errors = np.maximum.accumulate(aliasing(half, width))[1:]
+        if (3.0 * axis_errors / least_length).max() <= tolerance:
             return width
     raise ValueError("tolerance out of reach")
 

@@ -39,13 +39,19 @@ class TrackedSolid:
     `measure_patches`.
 
     `measure`: the current measurement, with volume moments to order 3. After an `update` from
-    tables its error bounds are estimates, and the area is an approximation.
+    tables its error bounds are estimates, and the area is an approximation. `_error` and
+    `_area_error` are relative to the largest moments and to the area.
     """
 
     def __init__(self, patches: Sequence[Patch], stored: float = 0.0):
         self._measure_anew(patches, stored)
 
     def _measure_anew(self, patches: Sequence[Patch], stored: float) -> None:
+        """Measure the patches exactly, and prepare the tables for updates if they are closed.
+
+        The tables are tried at once, which needs all other attributes: they count as long as they
+        come near the exact moments.
+        """
         self.measure: PatchIntegrals = measure_patches(patches, stored=stored)
         self._is_tracking = self.measure.method is not Procedure.OPEN
         if not self._is_tracking:

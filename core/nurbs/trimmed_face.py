@@ -108,7 +108,7 @@ class TrimmedFace:
 
     def slab_moments(self, heights: NDArray, steps: NDArray, order: int, about: NDArray) -> Moments:
         """Return the volume moments of a sheet on the region, from its sections at heights (n,)
-        with weights (n,).
+        above it. steps: (n,) weights of the sections, lengths.
         """
         degree = monomials(order).sum(axis=1).astype(np.float64)
         sheet = partial(sheet_terms, heights=self.facing * heights, steps=steps, order=order)

@@ -226,6 +226,6 @@ def _distances(points: numerics.Array, segments: numerics.Array) -> numerics.Arr
     start = segments[:, 0]
     way = segments[:, 1] - segments[:, 0]
     away = points - start
-    length = (way * way).sum(axis=1)
-    share = np.clip((away * way).sum(axis=1) / np.where(length > 0.0, length, 1.0), 0.0, 1.0)
+    squared = (way * way).sum(axis=1)
+    share = np.clip((away * way).sum(axis=1) / np.where(squared > 0.0, squared, 1.0), 0.0, 1.0)
     return np.linalg.norm(away - share[:, None] * way, axis=1)

@@ -57,11 +57,11 @@ def find_core(surface: Surface, wall: float, top: float, bottom: float) -> Print
     """
     points, triangles = weld_equal(surface)
     corners = points[triangles]
-    normals, angles, _, solid = corner_geometry(corners)
+    normals, angles, _, has_normal = corner_geometry(corners)  # slivers have none
     layers = np.where(normals[:, 2] > 0.0, top, bottom) * np.abs(normals[:, 2])
     sideways = wall * np.hypot(normals[:, 0], normals[:, 1])
-    moves = np.where(solid, np.maximum(sideways, layers), 0.0)
-    weights = np.where(solid[:, None], angles, 0.0)
+    moves = np.where(has_normal, np.maximum(sideways, layers), 0.0)
+    weights = np.where(has_normal[:, None], angles, 0.0)
     steps = _steps(len(points), triangles, normals, weights, moves)
     depths = np.einsum("mi,mki->mk", normals, steps[triangles])
     ratios = depths[moves > 0.0] / moves[moves > 0.0, None]
@@ -70,7 +70,9 @@ def find_core(surface: Surface, wall: float, top: float, bottom: float) -> Print
     shifted = float(np.linalg.norm(unequal @ ways)) / float(np.ptp(points, axis=0).max())
     core = Surface(points - steps, triangles)
     least = float(ratios.min(initial=1.0))
-    if len(triangles) < ALWAYS or _meet(corners[solid], normals[solid], moves[solid]):
+    if len(triangles) < ALWAYS or _meet(
+        corners[has_normal], normals[has_normal], moves[has_normal]
+    ):
         nearest = wall * least, top * least, bottom * least
         core = part_behind(points, core.points, triangles, nearest)
         if core is None:

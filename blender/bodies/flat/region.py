@@ -188,6 +188,8 @@ def _region_of(reading: SectionReading, object_type: str, unit: float) -> FlatRe
             findings.append(verdict.finding(SECTION_FACES_REVERSED, count=flipped))
     defects = find_defects(flat_points, edges, error)
     are_crossed = defects.crossings or defects.overlapping
+    # Outlines that cross, or turn around a point the wrong way, bound no area. Faces that overlap
+    # have one each, and their sum is measured with a warning.
     if defects.negative or (reading.loops is not None and are_crossed):
         raise verdict.ReadError(OUTLINES_CROSS)
     if are_crossed:

@@ -309,10 +309,12 @@ class Shape:
         by_moments = symmetry(self.piece_moments(), max(inertia.NOISE_LEVEL, tolerance))
         triangles = self._placed_triangles(tolerance, tolerance)
         by_surface = by_moments
+        # Without axes of revolution, the surface counts as round about all of them.
         if not triangles.is_round(by_moments, tolerance):
             turn_orders = map(triangles.turn_order, by_moments.revolution_axes)
             # Axes of a higher order than groups can have count as axes of revolution.
             if max(turn_orders, default=np.inf) <= MAX_AXIS_ORDER:
+                # No symmetry but the identity is certain if there are too many candidates.
                 operations = (triangles.groups() or [np.eye(3)[None]])[0]
                 by_surface = Symmetry(operations, np.empty((0, 3)), by_moments.order)
         is_held = [triangles.holds(operation, tolerance) for operation in by_surface.operations]

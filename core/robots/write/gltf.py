@@ -278,7 +278,9 @@ def add_rigid_bodies(
     """Add the motions of bodies to the nodes of a glTF document, and a node for its unit, in place;
     return findings.
 
-    robot: its links have the names of nodes. meters_per_unit: unit scale of the Blender scene.
+    robot: its links have the names of nodes, and no joint moves: one with such joints is written as
+    a document of its own. So each root has the inertia of all links below it. meters_per_unit: unit
+    scale of the Blender scene.
     """
     nodes = document.get("nodes", [])
     bones = {joint for skin in document.get("skins", []) for joint in skin["joints"]}
@@ -293,7 +295,7 @@ def add_rigid_bodies(
         if inertial is None:
             continue
         nodes_of_link = by_name.get(link.name, [])
-        if len(nodes_of_link) != 1:
+        if len(nodes_of_link) != 1:  # none, or which one is unknown
             missing.append(link.name)
             continue
         if np.abs(link.scale - 1.0).max() > UNIFORM_RTOL:
