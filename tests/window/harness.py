@@ -11,7 +11,6 @@ For the same reason the screen is small, and the viewport is drawn without anti-
 import contextlib
 import json
 import os
-import shutil
 import subprocess
 import tempfile
 import time
@@ -31,11 +30,6 @@ for keymap in bpy.context.window_manager.keyconfigs.user.keymaps:
         item.active &= item.idname != "view3d.copybuffer"
 """
 TOOLS = ("Xvfb", "xdotool", "scrot")
-
-
-def blender_command() -> str | None:
-    """The real Blender: the variable BLENDER, else the one on the PATH."""
-    return os.environ.get("BLENDER") or shutil.which("blender")
 
 
 class Window:

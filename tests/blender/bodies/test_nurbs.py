@@ -42,25 +42,7 @@ def shown(obj):
     return np.array([vertex.co for vertex in mesh.vertices], np.float64).reshape(-1, 3)
 
 
-def spaces_of(spline):
-    return (
-        blender_space(
-            spline.point_count_v,
-            spline.order_v,
-            spline.use_cyclic_v,
-            spline.use_bezier_v,
-            spline.use_endpoint_v,
-        ),
-        blender_space(
-            spline.point_count_u,
-            spline.order_u,
-            spline.use_cyclic_u,
-            spline.use_bezier_u,
-            spline.use_endpoint_u,
-        ),
-    )
-
-
+SPACE = ("point_count_", "order_", "use_cyclic_", "use_bezier_", "use_endpoint_")
 FLAGS = list(product((False, True), repeat=3))
 
 
@@ -88,7 +70,11 @@ def test_display_mesh_is_reproduced_for_all_spline_flags(along_u):
         )
         (spline,) = obj.data.splines
         assert [spline.order_u, spline.order_v] == orders
-        vertices, spaces = shown(obj), spaces_of(spline)
+        vertices = shown(obj)
+        spaces = tuple(
+            blender_space(*(getattr(spline, name + direction) for name in SPACE))
+            for direction in "vu"
+        )
         if None in spaces:
             assert not len(vertices)
         else:

@@ -58,14 +58,6 @@ def ellipsoid_volume(p, q, r, axes=(1.0, 0.75, 0.5)):
     )
 
 
-def sphere_surface(p, q, r):
-    return 0.0 if p % 2 or q % 2 or r % 2 else half_gammas(p, q, r) / gamma((p + q + r + 3) / 2)
-
-
-def cylinder_volume(p, q, r, radius=0.8, low=-0.25, high=1.0):
-    return disc(p, q, radius) * between(low, high, r)
-
-
 def cone_volume(p, q, r, radius=0.8, height=1.2):
     return disc(p, q, radius) * height ** (r + 1) / (p + q + r + 3)
 
@@ -144,9 +136,11 @@ BODIES = {
     "sphere": (
         lambda n: ellipsoid(n, (1.0, 1.0, 1.0)),
         lambda p, q, r: ellipsoid_volume(p, q, r, (1, 1, 1)),
-        sphere_surface,
+        lambda p, q, r: (
+            0.0 if p % 2 or q % 2 or r % 2 else half_gammas(p, q, r) / gamma((p + q + r + 3) / 2)
+        ),
     ),
-    "cylinder": (cylinder, cylinder_volume, None),
+    "cylinder": (cylinder, lambda p, q, r: disc(p, q, 0.8) * between(-0.25, 1.0, r), None),
     "cone": (cone, cone_volume, None),
     "torus": (torus, torus_volume, torus_surface),
     "ball between planes": (slice_of_ball, slice_volume, None),
