@@ -19,7 +19,7 @@ from .iges_entities import MAX_DEPTH, IgesText, Places, integers, numbers
 from .iges_types import ARC, CHAIN, CONIC, LINE, SPLINE_CURVE
 from .sweeps import conic_pieces
 
-MAX_PIECES = 10_000  # entities of one boundary, chains included
+MAX_PIECES = 10_000  # entities of one curve of a boundary, chains included
 
 
 class CurveReader:
@@ -65,12 +65,13 @@ class CurveReader:
         if entry.type == CHAIN:
             return self._read_chain(fields, matrix, depth)
         curves = _MAKERS[entry.type](fields) if entry.type in _MAKERS else None
-        if curves is None or matrix is None:
+        if matrix is None:
             return curves
-        reach = max((float(lengths(curve.points).max()) for curve in curves), default=0.0)
-        moved = self._local_rounding(entry.type, fields, curves) + turning * reach
+        # The decimals of a curve that cannot be read count, too: they tell how fine the file is.
+        reach = max((float(lengths(curve.points).max()) for curve in curves or ()), default=0.0)
+        moved = self._local_rounding(entry.type, fields, curves or ()) + turning * reach
         self._rounding = max(self._rounding, float(np.linalg.norm(matrix[:3, :3], 2)) * moved)
-        return [curve.transform(matrix) for curve in curves]
+        return None if curves is None else [curve.transform(matrix) for curve in curves]
 
     def _read_chain(
         self, fields: list[str], matrix: NDArray | None, depth: int
@@ -87,7 +88,7 @@ class CurveReader:
 
     def _local_rounding(self, kind: int, fields: list[str], curves: Sequence[Curve]) -> float:
         """Return the effect of the decimals of a simple curve's numbers on its points."""
-        if kind == CONIC:
+        if kind == CONIC and curves:
             return self._text.rounding(fields[6:]) + self._conic_rounding(fields, curves)
         # Two fifths of a spline's numbers are knots and weights, which stand before its points.
         first = 6 + 2 * len(fields[6:]) // 5 if kind == SPLINE_CURVE else 0

@@ -127,8 +127,8 @@ class StepReader:
         # First the roots, then what only a circle of assemblies places.
         roots = [number for number in representations if number not in placed | self._aspects]
         for number in [*roots, *representations]:
-            has_placed_solid = self._solids.keys() & self._attribute(number, 1)
-            is_known = number in self._aspects and has_placed_solid
+            # The items of a damaged representation are noted where it is placed, not read here.
+            is_known = number in self._aspects and self._solids.keys() & self._attribute(number, 1)
             if number not in self._visited and not is_known:
                 self._place(number, np.eye(4), ())
         notes = [finding(code, count=count) for code, count in self._left_out.items() if count]

@@ -115,6 +115,7 @@ class OBJECT_OT_body_moments_link_copies(selection.InObjectMode, Operator):
     def execute(self, context: Context) -> set[str]:
         kinds = self._find_kinds(context)
         self._search_key = None
+        self._kinds = []  # They hold the arrays of removed meshes.
         self._objects = None
         keeps_materials = "MATERIALS" in self.may_differ
         with session.stored.assembly.kept_up_to_date(context):

@@ -251,8 +251,9 @@ def _compose_usd(path: Path, roots: Roots) -> bytes:
         return stage.Flatten().ExportToString().encode()
     except RuntimeError as error:  # pxr.Tf.ErrorException is one.
         # Some messages begin with a place in pxr's source.
-        _, _, reason = str(error).strip().partition("\n")[0].rpartition(" : ")
-        raise FileError(FILE_UNREADABLE, error=reason.strip(" '")) from error
+        # a place in pxr's source
+        place, _, reason = str(error).strip().partition("\n")[0].rpartition(" : ")
+        raise FileError(FILE_UNREADABLE, error=(reason or place).strip(" '")) from error
 
 
 def _check_layers(sdf: Any, path: Path, roots: Roots) -> None:

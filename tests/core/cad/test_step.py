@@ -340,6 +340,16 @@ def test_right_solids_beside_damage_are_measured(tmp_path):
     for text, names, faults in (
         (whole.replace("CYLINDRICAL_SURFACE", "BOUNDED_SURFACE", 1), ["Plätte"], 1),
         (whole.replace(within[0], swapped), ["Bolt"] * 4 + ["Plätte"], 1),
+        (
+            re.sub(
+                r"SHAPE_REPRESENTATION\('',\([^)]*\)(,#\d+\);)",
+                r"\g<0>\n#9999999=SHAPE_REPRESENTATION('',$\1",
+                whole,
+                count=1,
+            ),
+            ["Bolt"] * 4 + ["Plätte"],
+            1,
+        ),
     ):
         file = read(tmp_path, text)
         assert sorted(one.name for one in file.bodies) == names
