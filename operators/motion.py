@@ -35,7 +35,7 @@ class KeyedFlight(modal.ModalDialog, rig.OnArmature):
     blend = 0
     keep = "TIMES"
     anyway = False
-    _is_found = False  # whether take-off and landing are those by contacts
+    _is_found = False  # True if take-off and landing are those by contacts
 
     use_contacts: BoolProperty(
         name="Find by Contacts",

@@ -19,10 +19,10 @@ from ..core import inertia, verdict
 from . import rows, texts
 
 ICONS = {write.remedies.DEFECTS: "ZOOM_SELECTED", write.remedies.SELECT: "RESTRICT_SELECT_OFF"}
-LINE_SHARE = 0.6  # of a row for the text of a line and its button, beside the icons
+LINE_SHARE = 0.6  # share of a row for the text of a line and its button, beside the icons
 MIN_QUESTIONED_LENGTH = 5.0  # m: longer bodies may be meant in millimeters
 MIN_QUESTIONED_MASS = 1e5  # kg
-QUESTION_DIGITS = 3  # of the length and mass in the question
+QUESTION_DIGITS = 3  # digits of the length and mass in the question
 
 
 def lines(

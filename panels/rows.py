@@ -35,7 +35,7 @@ VALUE_SHARE = 0.6  # share of a row that a setting takes beside its label
 WIDEST_COSINE = "−0.0000"  # rows of directions have one form, whatever their signs
 BUTTON_MARGIN = "m"  # a letter as wide as the space around a button's text
 Cell = tuple[str, str, str, str]  # label, text, copied value, its unit
-LABELS = {  # of settings, in place of their names
+LABELS = {  # labels of settings, in place of their names
     "mass": "Mass (kg)",
     "shown_mass": "Total Mass (kg)",
     "density": "Density (kg/m³)",

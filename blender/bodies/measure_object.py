@@ -26,7 +26,7 @@ from ..settings.options import AS_SET, MeasureOptions, object_settings
 from .stack import Measured, Member, measure_members
 
 MAX_OBJECTS_PER_STACK = 512
-MAX_STACKED_FACES = 20_000  # of one mesh; larger ones are measured alone
+MAX_STACKED_FACES = 20_000  # larger meshes are measured alone
 MAX_FACES_PER_STACK = 40_000
 
 Outcome = Measured | Exception

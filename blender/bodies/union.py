@@ -21,9 +21,9 @@ from ...core.numerics import Array, Index, Integers
 from ...core.solid import CAVITIES_BREAK_THROUGH, NON_MANIFOLD_COMPONENTS, measure_solid
 from ..read.mesh import mesh_surface
 
-MAX_PAIRS = 2_000_000  # of boxes; if there are more, all shells are united at once
-TOUCHING_RTOL = 1e-6  # of the size: boxes nearer than this meet
-VOLUME_RTOL = 1e-5  # of the union, beyond its bounds
+MAX_PAIRS = 2_000_000  # pairs of boxes; if there are more, all shells are united at once
+TOUCHING_RTOL = 1e-6  # Relative to the size: boxes nearer than this meet.
+VOLUME_RTOL = 1e-5  # Relative to the volume of the union, beyond its bounds.
 # A tetrahedron apart from all bodies, whose coordinates are scaled to at most 1.
 MARKER = np.array([(0.0, 0.0, 0.0), (0.1, 0.0, 0.0), (0.0, 0.1, 0.0), (0.0, 0.0, 0.1)]) + 1.2
 MARKER_FACES = np.array([(0, 2, 1), (0, 1, 3), (0, 3, 2), (1, 2, 3)])

@@ -24,7 +24,7 @@ from .findings import (
 )
 
 SECTION_TYPES = {"MESH", "CURVE", "FONT"}  # objects with faces or curves that may be flat
-MAX_DEPTH = 7  # of instances within instances: Blender stops here too (MAX_DUPLI_RECUR - 1)
+MAX_DEPTH = 7  # levels of instances within instances, Blender's own limit (MAX_DUPLI_RECUR - 1)
 
 
 def measurable(obj) -> bool:

@@ -93,7 +93,7 @@ def independent_rounds(changes: Iterable[tuple[Planned, set[ID]]]) -> list[list[
     """Group changes, given with the data that they may touch, into rounds: changes of the same data
     follow in order.
     """
-    last_round: dict[ID, int] = {}  # of the changes that touch the data
+    last_round: dict[ID, int] = {}  # last round of the changes that touch the data
     by_round: dict[int, list[Planned]] = {}
     for change, touched in changes:
         index = 1 + max((last_round.get(data, -1) for data in touched), default=-1)

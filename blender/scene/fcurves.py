@@ -21,7 +21,7 @@ from .findings import INTERPOLATION_UNCUT
 CONSTANT = 0
 LINEAR = 1
 BEZIER = 2
-FREE = 0  # of a handle's type
+FREE = 0  # a type of handles
 KEY = np.dtype(
     [
         *((name, np.float32, 2) for name in ("co", "handle_left", "handle_right")),

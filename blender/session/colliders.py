@@ -278,7 +278,7 @@ def _is_same_body(stored: Sequence[float], body: inertia.MassProperties) -> bool
     """
     if len(stored) != 13 or not body.mass > 0.0:
         return False
-    size = (float(body.inertia.trace()) / body.mass) ** 0.5  # as a radius of gyration
+    size = (float(body.inertia.trace()) / body.mass) ** 0.5  # a radius of gyration
     scales = np.repeat([body.mass, size, body.mass * size**2], [1, 3, 9])
     return bool(
         (np.abs(np.array(stored, np.float64) - _describe_body(body)) <= SAME * scales).all()

@@ -23,7 +23,7 @@ WORDS = {
     "wall": ("thin", "inward", "outward", "centered"),
 }
 QUANTITIES = ("density", "mass", "thickness", "unit_scale")
-MAX_ELEMENTS = 8  # of a finding; a record of the command line has more
+MAX_ELEMENTS = 8  # elements of a finding; a record of the command line has more
 UNITS = {
     "mass": "kg",
     "density": "kg/m³",

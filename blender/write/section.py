@@ -98,7 +98,7 @@ def stored(obj: bpy.types.Object) -> StoredSection | None:
     axes = values["axes"]
     (out_of_plane,) = values["off"]
     (outlines, holes) = values["counts"]
-    loaded = core.flat.section_properties  # when there is a section to read
+    loaded = core.flat.section_properties  # imported if there is a section to read
     # The columns of the axes were stored one after the other.
     rows = (axes[0::3], axes[1::3], axes[2::3])
     section = loaded.Section(

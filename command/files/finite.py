@@ -23,7 +23,7 @@ _FBX_VERTICES = re.compile(rb"\x08Vertices(?=[df])")
 _FBX_ARRAY = re.compile(rb"Vertices(?<!\wVertices)\s*:(?:\s*\*\d+\s*\{\s*a\s*:)?")
 _FBX_NUMBERS = re.compile(rb"(?>(?:[\s,]*+%b(?=[\s,}]|\Z))*)[\s,]*+" % files.SHORT)
 _FBX_WORD = re.compile(rb"[^\s,:{}]++(?!\s*:)")  # not the name of what follows
-_VALUES = ("matrix", "translation", "rotation", "scale", "weights")  # of nodes and meshes
+_VALUES = ("matrix", "translation", "rotation", "scale", "weights")  # numbers of nodes and meshes
 
 
 def check_numbers(path: str, kind: str) -> None:

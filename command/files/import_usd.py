@@ -70,7 +70,7 @@ def _is_special(prim: _Prim) -> bool:
     """
     axes = prim.place[:3, :3]
     lengths = np.linalg.norm(axes, axis=0)
-    products = np.abs(axes.T @ axes - np.diag(lengths**2))  # of different axes
+    products = np.abs(axes.T @ axes - np.diag(lengths**2))  # products of different axes
     is_sheared = (products > _SHEAR * np.outer(lengths, lengths)).any()
     return bool(prim.hidden or prim.scheme or is_sheared or prim.points is not None)
 

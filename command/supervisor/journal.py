@@ -97,7 +97,7 @@ class Journal:
         self._file = open(path, "a+b")  # noqa: SIM115
         self._file.seek(0)
         self._end = 0  # offset of the next line
-        self._torn = False  # whether the last line lacks its end
+        self._torn = False  # True if the last line lacks its end
         for line in self._file:
             # A line that is torn, damaged or foreign counts as none.
             with suppress(ValueError, KeyError, TypeError, AttributeError, RecursionError):

@@ -45,7 +45,7 @@ PREVIEW_CELLS = 1 << 18  # in a grid that follows a slider
 TRILINEAR = 2
 LARGEST_WHOLE = 1 << 53  # float64 holds all whole numbers below
 FLOAT32_U = 2.0**-23  # relative error of a header's slope and intercept, in float32
-MAX_ROUNDING = 0.01  # of a label, beyond which it is a fraction
+MAX_ROUNDING = 0.01  # farther from a whole number, a label is a fraction
 
 
 @dataclass(frozen=True, eq=False)

@@ -99,7 +99,7 @@ def print_body(
     # Without a density, a given mass scales these moments when the body is measured.
     mass = replace(material, measure=moments.Measure.MASS) * (settings.density or 1.0)
     record |= {"core_volume": core_volume.total, "material_volume": material.total}
-    kilograms = settings.mass or mass.total  # of printed material, without ballast
+    kilograms = settings.mass or mass.total  # the printed material, without ballast
     if ballast is not None:
         mass = mass + ballast
     if printed.price > 0.0:

@@ -317,6 +317,6 @@ def _round_down(length: float) -> float:
     """
     if not isfinite(length):
         return inf
-    unit = 10.0 ** (floor(log10(length)) - 3)  # of the fourth digit
+    unit = 10.0 ** (floor(log10(length)) - 3)  # one in the fourth digit
     rounded = float("{:.4g}".format(floor(length / unit) * unit))
     return rounded if rounded < length else float("{:.4g}".format(rounded - unit))

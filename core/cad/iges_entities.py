@@ -24,7 +24,7 @@ from .iges_types import MATRIX
 from .surfaces import RECURSION, refuse
 
 FORMAT = "IGES (fixed ASCII form)"
-COLUMNS = 80  # of a line
+COLUMNS = 80  # characters of a line
 SECTION = 72  # Column of the letter that names a line's section.
 PARAMETERS = 64  # columns that parameters may take
 UNITS = {

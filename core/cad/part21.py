@@ -96,7 +96,7 @@ class Part21:
         """Return a file of these statements and of all instances that they need."""
         needed: set[int] = set()
         texts = ["".join(lines).encode()]
-        for text in texts:  # which grow by the instances that a text refers to
+        for text in texts:  # They grow by the instances that a text refers to.
             references = set(map(int, _REFERENCE.findall(text))) - needed
             for number in references & self._spans.keys():
                 needed.add(number)

@@ -41,7 +41,7 @@ MIN_CLEARANCE = (
     1e-3  # distance of curves from the poles of a sphere, as one minus the sine of the latitude
 )
 AXES = 64  # directions among which a sphere's axis is chosen
-BESIDE = 1e-5  # of a period: a spot so near to a seam is in the region too
+BESIDE = 1e-5  # Relative to a period: a spot so near to a seam is in the region too.
 MIN_STEP = 1e-12  # relative to the coordinates' range: a gap of a track that needs no line
 Chart: TypeAlias = Quadric | SplineChart
 

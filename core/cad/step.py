@@ -70,8 +70,8 @@ class StepReader:
         self._stem = path.stem
         self._shapes = Shapes(self._text)
         self._refusals = Refusals()
-        self._edges: dict[int, list[Curve]] = {}  # of the present solid
-        self._uses: Counter[int] = Counter()  # of edges in the present shell
+        self._edges: dict[int, list[Curve]] = {}  # curves of the present solid
+        self._uses: Counter[int] = Counter()  # uses of edges in the present shell
         self._solids: dict[int, tuple[list[Face], float]] = {}  # with the gaps of their edges
         self._places: set[tuple[int, bytes]] = set()  # solids with the matrices that placed them
         self._contexts: dict[int, tuple[float, float, float]] = {}  # results of `_units`
@@ -79,7 +79,7 @@ class StepReader:
         self._twins: dict[int, list[int]] = {}  # representations of the same coordinates
         self._owners: dict[int, int] = {}  # product definitions by representation
         self._aspects: set[int] = set()  # representations of parts of a shape
-        self._items: set[int] = set()  # of all representations
+        self._items: set[int] = set()  # items of all representations
         self._relations: dict[int, int] = {}  # child definitions by relationship
         self._colors: dict[int, tuple[float, ...]] = {}
         self._hidden: set[int] = set()
@@ -238,7 +238,7 @@ class StepReader:
     def _group(self, number: int) -> list[int]:
         """Return the representations in the same coordinates as one, itself first."""
         group = [number]
-        for member in group:  # which grows by the twins of its members
+        for member in group:  # It grows by the twins of its members.
             group += [twin for twin in self._twins.get(member, ()) if twin not in group]
         return group
 

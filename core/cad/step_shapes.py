@@ -39,7 +39,7 @@ from .trimmed import face_within, flat_region
 UNCERTAINTIES = 20.0  # A vertex may be so many uncertainties of the file from its curve.
 SAMPLES = 257  # points of a spline where the search for the parameters of vertices begins
 MARGIN = 1e-3  # by which a swept surface goes beyond its boundary, relative to this
-Ends: TypeAlias = "Sequence[Array] | None"  # of a curve; None for the whole curve
+Ends: TypeAlias = "Sequence[Array] | None"  # two ends of a curve; None for the whole curve
 Loops: TypeAlias = list[list[Curve]]
 
 

@@ -37,7 +37,7 @@ from .surfaces import SurfaceRefusedError, refuse
 FLAT_RTOL = 1e-8  # Relative to the size: a surface that is farther from a plane is curved.
 SEAM_SAMPLES = 8  # points on a span of a seam
 CROSSING_SAMPLES = 7, 17  # on a span: ends of shorter chords may lie too near to a crossing
-LIFTED_ORDER = 10  # of curves through points of a surface
+LIFTED_ORDER = 10  # order of curves through points of a surface
 LIFTED_RTOL = 1e-12  # relative to the size of a piece, which is halved until it is so near
 LIFTED_DEPTH = 8
 ROUNDED = 1e-15  # relative to the coordinates: pieces of no length are not halved

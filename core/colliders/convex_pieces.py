@@ -48,7 +48,7 @@ SHIFTS = np.array([-0.06, -0.03, -0.015, 0.015, 0.03, 0.06])
 SHARES = np.array([1, 2, 3]) / 4.0  # shares of the extent, where planes divide a piece evenly
 SAME_AXIS = 1.0 - 1e-9  # cosine: nearer axes are one
 LEAST_GAIN = 1e-3  # relative to the body's volume: a smaller reduction is none
-LEAST_EXCESS = 0.01  # of the hull over the volume of a piece that is worth two cuts
+LEAST_EXCESS = 0.01  # Excess of the hull over the volume from which a piece is worth two cuts.
 HOPE = 0.02  # Relative to the excess: the assumed gain of a cut that gains nothing yet.
 MERGE_CORNERS = 96  # corners of hulls that are compared before they are merged
 SPARE = 2  # pieces made for each wanted piece, before they are merged
@@ -284,7 +284,7 @@ def _gains(
     set_count = 1
     for sign in (1.0, -1.0):
         vertex, vertex_plane = np.nonzero(sign * height >= 0.0)
-        number = np.full(height.shape, -1)  # of each vertex on this side of each plane
+        number = np.full(height.shape, -1)  # row of each vertex on this side of each plane
         number[vertex, vertex_plane] = np.arange(len(vertex))
         ends = number[edges]  # (e, 2, k)
         # an edge in the plane joins nothing

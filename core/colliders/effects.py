@@ -50,7 +50,7 @@ REPETITIONS = 40
 ROUNDING = 1e-15
 REACHED = 1e-11
 MOVES_REACHED = 1e-8  # relative to the body's volume and size, as precise as single precision
-NEAR = 1e-6  # as MOVES_REACHED: farther from the sums, the volume is given up
+NEAR = 1e-6  # Like MOVES_REACHED: farther from the sums, the volume is given up.
 MAX_STEPS, MAX_MULTIPLIER_STEPS = 60, 60
 # radii of the trust region, in the body's radii of gyration
 FIRST_RADIUS = 0.1
@@ -58,7 +58,7 @@ LEAST_RADIUS = 1e-6
 MIN_AREA = 1e-3  # relative to the largest share: corners with less move as if they had so much
 # Relative to the effect of all moves: it lets sums that cannot be reached be missed.
 SLACK = 1e-9
-CORRECTING_SHARE = 0.97  # of the work that is completed when corners are moved
+CORRECTING_SHARE = 0.97  # share of the work that is completed when corners are moved
 FLAT_RTOL = 3e-7  # a few roundings to single precision
 TINY = float(np.finfo(np.float64).tiny)
 

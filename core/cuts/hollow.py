@@ -42,7 +42,7 @@ from .part_below import PartBelow, measure_below
 MAX_CANDIDATES = 6  # deepest hollows whose volumes are compared
 # A sheet may face either way; hollows that it has only if it is turned must be so much larger.
 TURNED_SHARE = 10.0
-MAX_STEPS = 100  # of the search for a level; bisection alone takes 60
+MAX_STEPS = 100  # steps of the search for a level; bisection alone takes 60
 DIRECTIONS = 24  # in which a vessel is tilted: the corners of a box among them
 TILT_ROUNDS = 24
 TILT_RTOL = 1e-4

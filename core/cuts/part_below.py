@@ -306,7 +306,7 @@ def _below(
     faces = np.where(EXPONENTS[:, 2, None] == 0, -sums[:10], 0.0)
     if not is_open:
         faces[:, heights > high[2]] = 0.0
-    area, spread, edges, count, unclear, roundings = sizes  # as in `_sums_below`
+    area, spread, edges, count, unclear, roundings = sizes  # the results of `_sums_below`
     largest = np.multiply.reduce((reach + shifts.sum(axis=0)) ** EXPONENTS[:, :, None], axis=1)
     products = U * ((PRODUCT_ROUNDINGS + roundings) * area + SPREAD_ROUNDINGS * spread)
     bounds = np.zeros((4, *parts.shape))

@@ -48,7 +48,7 @@ from .findings import (
 )
 
 MAX_STEPS = 200
-MAX_ROUNDS = 8  # of filling hollows and settling
+MAX_ROUNDS = 8  # rounds of filling hollows and settling
 FIRST_LEVELS = 17  # levels at which the volume is taken if none is known
 # Of the volume: the slab corrects a smaller error to less than rounding.
 SLAB_RTOL = 1e-6
@@ -56,10 +56,10 @@ FULL_RTOL = 1e-12  # a tank without less has no free surface
 AT_REST = 1e-12  # relative to the size: smaller righting arms count as none
 ACCEPTED = 1e-9  # relative to the size: larger righting arms at the end are no rest
 FLAT = 1e-9  # relative to the size: metacentric heights that may be zero
-SHIFT = 1e-6  # of the height: between levels whose surfaces are compared
+SHIFT = 1e-6  # Relative to the height: between levels whose surfaces are compared.
 SAME_ATTITUDE = 1e-5  # rad: positions closer than this are one
 PROBE = 0.03  # rad: the turn by which a lower position beside a flat one is looked for
-FIRST_RADIUS = 0.3  # of the trust region, rad
+FIRST_RADIUS = 0.3  # radius of the trust region, rad
 # The directions from the middle of a cube to its faces, edges and corners, turned: a start in the
 # plane of symmetry between two positions of rest finds one of them only.
 STARTS = [start for start in product((0.0, 1.0, -1.0), repeat=3) if any(start)] @ rotation_matrix(

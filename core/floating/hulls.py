@@ -66,7 +66,7 @@ def outer_surface(body: Body) -> Iterator[tuple[SolidIntegrals, Array]]:
 def find_hull(bodies: Iterable[Body]) -> Hull:
     """Return the outer side of bodies with their holes closed, or raise MeasureError."""
     points, triangles, caps, part, rims = [], [], [], [], []
-    start = number = 0  # of the points, and of the parts, before this solid
+    start = number = 0  # counts of points and of parts before this solid
     displacement = np.zeros(3)
     for body in bodies:
         for solid, matrices in outer_surface(body):

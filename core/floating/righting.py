@@ -26,7 +26,7 @@ from .flotation import Flotation
 MAX_STEPS = 30
 MAX_TRIM_STEP = 0.2  # rad
 LEVEL_TRIM = 1e-12  # relative to the size: smaller trimming arms count as none
-ROUNDS = 40  # of the search for an angle
+ROUNDS = 40  # rounds of the search for an angle
 ANGLE_ATOL = 1e-9  # rad: closer angles are one
 SEARCH_STEP = np.radians(2.5)
 FIRST_HEEL = 1e-3  # rad; the arm at rest is zero, so that its sign is that beside it

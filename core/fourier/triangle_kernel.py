@@ -36,7 +36,7 @@ from ..verdict import MAX_COORDINATE, NO_FACES, OBJECT_SIZE, TOO_LARGE, MeasureE
 from .wave_vectors import GridWaves, ListWaves
 
 TRIANGLES_PER_BLOCK = 128
-PAIRS_PER_BLOCK = 16384  # of triangles and frequencies at a time: their arrays stay in the cache
+PAIRS_PER_BLOCK = 16384  # pairs of a triangle and a frequency: their arrays stay in the cache
 TRIANGLES_PER_BATCH = 1 << 16  # triangles that are prepared at a time
 MAX_SERIES_DIAMETER = 3.0  # largest |q| times diameter up to which a whole block takes the series
 MAX_SERIES_SQUARE = 1.0  # Σ d² below which a single pair takes the series

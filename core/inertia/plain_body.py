@@ -35,7 +35,7 @@ SYMMETRIES = "asymmetric", "prolate", "oblate", "isotropic"
 # For each symmetry, the axes with equal moments.
 EQUAL_AXES = {"isotropic": (0, 1, 2), "prolate": (1, 2), "oblate": (0, 1), "asymmetric": ()}
 EQUAL_MOMENTS_RTOL = 1e-6  # moments closer than this, relatively, are equal
-SWEEPS = 6  # of Jacobi's rotations, which converge quadratically
+SWEEPS = 6  # rounds of Jacobi's rotations, which converge quadratically
 EQUAL_TRACE_ATOL = 1e-6  # frames whose traces are closer than this are equally near
 MIN_ACROSS = 1e-6  # a shorter part of a vector has no direction
 MIN_AXIS_RATIO = (
@@ -274,7 +274,7 @@ def _nearest_frame(first: Vector, second: Vector, free: tuple[int, ...]) -> Axes
         frame = [a, b, cross(a, b)]
         if free:
             fixed = frame[3 - sum(free)]
-            # as in `complete_free_axes`
+            # like `complete_free_axes`
             direction = [u + v for u, v in zip(IDENTITY[free[0]], cross(IDENTITY[free[1]], fixed))]
             # If the fixed axis points against its own coordinate axis, any direction may be as
             # near: that along a coordinate axis is taken.

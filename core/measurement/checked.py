@@ -15,7 +15,7 @@ from typing import Any, NoReturn
 
 from .documents import SCHEMA
 
-MAX_DEPTH = 50  # of nested lists and objects, so that no later step nests too many calls
+MAX_DEPTH = 50  # levels of nested lists and objects, so that no later step nests too many calls
 _MAX_WHOLE = 1 << 128  # Products of several whole numbers still fit into float64.
 
 # A dict is an object with these entries: optional ones have a “?”, patterns stand for any number of

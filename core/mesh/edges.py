@@ -207,7 +207,7 @@ def consistent_orientation(
     )
     plain, turned = cover[:count], cover[count:]
     twisted = plain == turned
-    flipped = plain > turned  # of each part, one of the two ways; the weights decide
+    flipped = plain > turned  # each part has one of the two ways; the weights decide
     part = np.minimum(plain, turned)
     flipped_weight = np.bincount(part, weight * flipped)
     flipped ^= (2.0 * flipped_weight > np.bincount(part, weight))[part]
@@ -232,7 +232,7 @@ def group_components(edges: Edges, part: Index, parts: int, even: Mask) -> tuple
     side = np.flatnonzero(non_manifold[edges.of_side] & unfinished[part].repeat(3))
     edge = edges.of_side[side]
     any_part = np.empty(len(non_manifold), np.intp)
-    any_part[edge] = part[side // 3]  # of several parts at an edge the last one written
+    any_part[edge] = part[side // 3]  # the last one of several parts at an edge
     component, number = connected_components(parts, part[side // 3], any_part[edge])
     return component[part], number
 

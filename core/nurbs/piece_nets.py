@@ -13,7 +13,7 @@ import numpy as np
 from ..numerics import Array, NDArray, SplineSpace
 from .splines import Curve, homogeneous
 
-SAMPLES = 17  # of a Bézier piece of a loop
+SAMPLES = 17  # samples of a Bézier piece of a loop
 
 
 def bezier_nets(curves: Sequence[Curve]) -> tuple[Array, Array]:

@@ -22,8 +22,8 @@ from .splines import Curve, control_length
 from .strips import StripIntegrator, Terms
 from .tiles import region_tiles
 
-MIN_TOLERANCE = 1e-13  # of strips, relative to their size
-BLUR_SHARE = 0.1  # of the uncertainty by edges beside the surface: more cuts would tell no more
+MIN_TOLERANCE = 1e-13  # tolerance of strips, relative to their size
+BLUR_SHARE = 0.1  # Share of the uncertainty by edges beside the surface: more cuts tell no more.
 ROUNDED_ORDERS = 16  # orders of the bases of a typical surface, for the rounding of its points
 
 

@@ -54,7 +54,7 @@ def coefficient_sums(corners: Array, weights: Array, starts: Index, order: int) 
     """
     first = corners[:, 0]
     vectors = corners[:, 1:, None]  # b, c, perhaps d
-    pair_weights = np.add.reduce(weights, axis=1)[:, None]  # of both triangles
+    pair_weights = np.add.reduce(weights, axis=1)[:, None]  # the weights of both triangles
     below = count_of_degree(order - 1)
     powers = np.empty((count_of_degree(order), corners.shape[2]))
     powers[0] = 1.0

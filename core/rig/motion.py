@@ -32,7 +32,7 @@ Flight = tuple[int, int]
 # indices of the first and last frame; linear and angular momentum from nothing
 Span = tuple[int, int, float, float]
 
-# of the polynomial through the frames around a velocity
+# nodes of the polynomial through the frames around a velocity
 NODES = 9
 DEGREE = 8
 # seconds: closer frames are captured, turn less, and have noise that averages out
@@ -91,7 +91,7 @@ def momenta_between(course: Course, first: int, last: int) -> tuple[Array, Array
     kinetic energy.
     """
     rows = slice(first, last + 1)
-    count = last - first  # of velocities
+    count = last - first  # number of velocities
     step, masses = course.step, course.masses
     center = course.center[rows]
     polar, _ = polar_rotation(course.linear[rows, int(masses.argmax())])

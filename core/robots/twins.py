@@ -23,7 +23,7 @@ from .model import Pose
 from .stated import StatedInertial
 from .totals import Tree
 
-TOLERANCE = 0.05  # of masses, relative to the larger one, and of tensors
+TOLERANCE = 0.05  # Relative to the larger mass, and for tensors.
 EQUAL = 0.01  # Equal geometry under two maps differs less.
 ALIKE = 1e-3  # Volumes of a pair without sides in the names differ less.
 _WORD = re.compile(r"[A-Z]?[a-z]+|[A-Z]+(?![a-z])|\d+|[^A-Za-z\d]+")

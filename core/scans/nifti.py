@@ -65,7 +65,7 @@ _FIELDS = {
 }
 _ATTRIBUTE = re.compile(r"""(\w+)=["']([^"']*)["']""")
 _VERSIONS = {348: 1, 540: 2}  # by the bytes of the header
-_MAGICS = {1: (b"n+1", b"ni1"), 2: (b"n+2", b"ni2")}  # of one file, and of a pair of files
+_MAGICS = {1: (b"n+1", b"ni1"), 2: (b"n+2", b"ni2")}  # magic of one file, and of a pair of files
 
 
 def read_nifti(path: Path, limits: Limits) -> Scan:

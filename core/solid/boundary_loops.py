@@ -30,7 +30,7 @@ from ..numerics import (
     unique_pairs,
 )
 
-MAX_GAP_ASPECT = 1e-3  # of the area of a gap, at most, by the square of its perimeter
+MAX_GAP_ASPECT = 1e-3  # largest area of a gap by the square of its perimeter
 MAX_END_PAIRS = 4_000_000  # Pairs compared; if there are more, only ends next to each other are.
 
 

@@ -232,7 +232,7 @@ def orient_nested_components(
     parent = _innermost_container(relations, number)
     order = np.argsort(depth[inner], kind="stable")
     inner, outer = inner[order], outer[order]
-    layers_around = np.zeros(number)  # of material, cavities subtracted
+    layers_around = np.zeros(number)  # layers of material, cavities subtracted
     for level in np.unique(depth[candidates]):
         at_level = np.flatnonzero(candidates & (depth == level))
         if level:

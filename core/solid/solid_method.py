@@ -47,7 +47,7 @@ from .self_intersection import SelfIntersection
 MIN_REPORTED_AMBIGUITY = 1e-6  # Share of the volume; smaller ambiguities are not reported.
 # So many bent faces, or more, with a smaller spread stand for a curved surface. Both are chosen.
 SMOOTH_FACES = 24
-SMOOTH_SHARE = 0.03  # of the volume
+SMOOTH_SHARE = 0.03  # share of the volume
 
 
 @dataclass(frozen=True, eq=False)

@@ -310,7 +310,7 @@ def _regions_of_one_layer(edges: Edges, is_copy: Mask, copied: Mask, agreement: 
     edge = edges.of_side[side]
     triangle = side // 3
     any_triangle = np.empty(len(edges.count), np.intp)
-    any_triangle[edge] = triangle  # of several at an edge the last one written
+    any_triangle[edge] = triangle  # the last one of several at an edge
     region, number = connected_components(len(copied), triangle, any_triangle[edge])
     region_of_side = region[triangle]
     other_count = np.bincount(edges.of_side, np.repeat(~copied, 3))[edge]

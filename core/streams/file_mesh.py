@@ -14,7 +14,7 @@ from ..files import refuse_non_finite
 from ..mesh import Surface, first_at_equal_position
 from ..numerics import Array, Index, Mask, NDArray, segment_starts
 
-CORNERS_PER_BLOCK = 1 << 18  # of polygons that are cut into triangles at a time
+CORNERS_PER_BLOCK = 1 << 18  # corners of polygons that are cut into triangles at a time
 
 Box = tuple[Array, Array]
 

@@ -33,7 +33,7 @@ from ..request import Request
 
 COUNT = monomial_count(moments.KNOWN_ORDER)
 FIRST_MOMENTS = slice(1, 4)  # in the order of `monomials`
-HIGHER_MOMENTS = slice(4, None)  # of second and third order
+HIGHER_MOMENTS = slice(4, None)  # moments of second and third order
 GIVEN_RTOL = 1e-6  # slack for values typed with few digits, relative to the trace or the box
 
 

@@ -272,7 +272,7 @@ def _curve_moments(
     corners = np.concatenate([curve.points[:, :2] for curve in curves])
     # The largest |x| and |y| about the centroid; 1 for z, whose exponent is 0 at `positions`.
     reach = np.append(np.abs(corners - about[:2]).max(axis=0) + 2.0 * (rounded + stored), 1.0)
-    positions = plane_positions(order)  # of the moments that a flat region has
+    positions = plane_positions(order)  # positions of the moments that a flat region has
     largest_monomial = (reach ** monomials(order))[positions].prod(axis=1)
 
     def swept(displacement: float) -> Array:

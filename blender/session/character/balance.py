@@ -34,7 +34,7 @@ LEAST_TURN = 0.02
 FARTHEST = 0.5  # moves and, in radians, turns of a bone in a step
 TORN = 0.05  # share of the mass above a bone that its location may leave behind
 MAX_STEPS = 20
-HALVINGS = 6  # of a step that does not bring the center nearer
+HALVINGS = 6  # halvings of a step that does not bring the center nearer
 FLAT = 1e-3  # relative to the largest rate: channels below it are left alone
 TURNS = (0.6, -0.6, 1.2, -1.2, 1.8, -1.8)  # rad: further first turns, if the center stays away
 

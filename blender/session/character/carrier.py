@@ -210,7 +210,7 @@ class Carrier:
         armature = self.armature
         old = {name: self._old(name) for name in ("location", self.rotation)[: 1 + turns]}
         locations, quaternions = self.channel_values(moves)
-        places = np.arange(len(times)).astype(np.float64)  # of the keys, in frames
+        places = np.arange(len(times)).astype(np.float64)  # places of the keys, in frames
         if turns:
             mode = self.owner.rotation_mode
             shortest = scene.fcurves.JUMP / (times[1] - times[0])

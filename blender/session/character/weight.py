@@ -84,7 +84,7 @@ class Character:
 
     model: Parts
     size: float
-    _motion: Motion = field(default_factory=lambda: Motion(1))  # of held objects
+    _motion: Motion = field(default_factory=lambda: Motion(1))  # motion of held objects
     # by session uid of a mesh object
     _vertex_bones: dict[int, numerics.Index] = field(default_factory=dict)
 

@@ -22,7 +22,7 @@ from .. import memory, tracking
 INSIDE = "body_balance_inside"
 CONTACT = "body_balance_contact"
 UNEXPLAINED = "body_balance_unexplained"
-DESCRIPTIONS = {  # of custom properties with F-curves
+DESCRIPTIONS = {  # custom properties with F-curves
     INSIDE: "Whether the center is over the support polygon",
     CONTACT: "Whether anything touches the ground",
     UNEXPLAINED: "Whether the momentum changes without a contact",

@@ -27,7 +27,7 @@ from ..findings import NO_SUCH_NAME
 from ..tracking import staleness
 from ..tracking.stamps import Kind
 
-MAX_TILTED_TRIANGLES = 20_000  # of vessels whose spill tilt is computed
+MAX_TILTED_TRIANGLES = 20_000  # the spill tilt of larger vessels is not computed
 
 
 @dataclass(eq=False)

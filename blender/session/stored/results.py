@@ -21,7 +21,7 @@ from .. import stored  # the sliders are imported when an object has them
 from ..tracking import armatures, staleness, stamps
 from . import density, faults, reference
 
-MAX_STORED_ELEMENTS = 32  # of a symmetry: nobody reads more for a ball or a fine prism
+MAX_STORED_ELEMENTS = 32  # elements of a symmetry: nobody reads more for a ball or a fine prism
 
 
 def store_many(

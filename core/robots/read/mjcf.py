@@ -54,7 +54,7 @@ from .xml import (
     stated_link,
 )
 
-SQUARE_ATOL = 1e-9  # of the entries of a rotation between axes, which are 0 or 1
+SQUARE_ATOL = 1e-9  # entries of a rotation between axes are 0 or 1 up to this
 SIZES = {"sphere": 1, "ellipsoid": 3, "box": 3, "capsule": 2, "cylinder": 2}
 
 
@@ -69,7 +69,7 @@ class _Model:
         self.compiler: dict[str, str] = {}
         self.meshes: dict[str, Node] = {}
         self.models: dict[str, _Model] = {}
-        self._shapes: dict[Node, Shape] = {}  # of the meshes that were read
+        self._shapes: dict[Node, Shape] = {}  # shapes of the meshes that were read
         self._classes: dict[str, dict[str, dict[str, str]]] = {}
         for compiler in root.all("compiler"):
             if compiler.get("assetdir"):

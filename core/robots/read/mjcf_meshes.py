@@ -29,8 +29,8 @@ THOMSEN = 1.6075  # the exponent of Thomsen's formula for the area of an ellipso
 # Factors of a derivative by steps of -2, -1, 1 and 2; exact for polynomials of degree 4.
 STENCIL = ((-2, 1.0), (-1, -8.0), (1, 8.0), (2, -1.0))
 STEP = 1e-3
-TINY = 1e-12  # of sines and cosines that are zero but for rounding
-MOST_STEPS = 1000  # of a mesh's parameters
+TINY = 1e-12  # smaller sines and cosines are zero but for rounding
+MOST_STEPS = 1000  # limit of a mesh's parameters
 WATER = 1000.0  # kg/m³, of shapes that state neither mass nor density
 LEAST_MASS = 1e-15  # mjMINVAL, kg
 
@@ -65,7 +65,7 @@ def _sphere(subdivisions: float) -> Array:
     for _ in range(_whole(subdivisions)):
         hull = convex_hull(points)
         corners = hull.points[hull.triangles]
-        middles = (corners + np.roll(corners, 1, axis=1)).reshape(-1, 3)  # of the edges
+        middles = (corners + np.roll(corners, 1, axis=1)).reshape(-1, 3)  # middles of the edges
         middles = middles / np.linalg.norm(middles, axis=1, keepdims=True)
         points = np.concatenate([hull.points, middles])
     return points

@@ -120,8 +120,8 @@ class _Parser:
         if wrong is not None:
             raise _invalid(text, wrong)
         self.index = 0
-        self.count = 0  # of prims
-        self.line = 1  # of the character at `counted`
+        self.count = 0  # number of prims
+        self.line = 1  # line of the character at `counted`
         self.counted = 0
 
     def peek(self) -> str:

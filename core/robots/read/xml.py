@@ -26,7 +26,7 @@ from ..stated import ENTRIES, Place, StatedLink, StatedShape
 MAX_ELEMENTS = 1_000_000
 MAX_DEPTH = 200
 FLAT_KINDS = ("empty", "plane", "heightmap", "hfield", "image")  # shapes of no volume, and terrain
-LEAST_LENGTH = 1e-14  # of a direction; shorter ones are rounding errors, also for MuJoCo
+LEAST_LENGTH = 1e-14  # shorter directions are rounding errors, also for MuJoCo
 NOWHERE = -1  # The position of elements from another file.
 Value = TypeVar("Value")
 _TAG = re.compile(rb"""(?:[^>"']|"[^"]*"|'[^']*')*>""")  # Quoted attributes may contain ">".

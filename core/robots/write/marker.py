@@ -11,7 +11,7 @@ AUDIT_SCHEMA = "body-moments-audit/1"
 AUDIT_COLUMNS = ("file", "link", "severity", "code", "message", "mass", "density", "repaired")
 AUDIT_PAGE = "<!doctype html><!-- Body Moments audit -->"  # the first line of a report as a page
 AUDIT_TEXT = "Body Moments: audit"  # written for one as text or a table
-AUDIT_COMMANDS = "::debug::Body Moments: audit"  # of one as commands for GitHub
+AUDIT_COMMANDS = "::debug::Body Moments: audit"  # begins a report as commands for GitHub
 SARIF_SCHEMA = "https://docs.oasis-open.org/sarif/sarif/v2.1.0/os/schemas/sarif-schema-2.1.0.json"
 _SARIF = re.compile(
     rb'\s*\{\s*"\$schema": "[^"]*sarif[^"]*",[^{]*\{\s*"tool": \{\s*"driver": \{\s*'
